@@ -1,8 +1,6 @@
 //! Symbolic regression for shaders.
 
 pub mod num;
-
-pub mod dataset;
-pub mod microfacet;
-pub mod quadrature;
-pub mod targets;
+pub mod op;
+pub mod program;
+pub mod suggest;

@@ -1,1 +1,14 @@
-//! num
+//! Numbers: vectors of lanes and the mathematics on them.
+//!
+//! [`Lanes`] is a register of `f32`s; [`math`] is written once over it, and so
+//! gives the same bits at every width: one `f32` (the scalar reference), sixteen in
+//! plain code, in two AVX2 registers, or in one AVX-512 register.
+
+mod lanes;
+pub mod math;
+#[cfg(target_arch = "x86_64")]
+mod x86;
+
+pub use lanes::{Lanes, Many};
+#[cfg(target_arch = "x86_64")]
+pub use x86::{Avx2, Avx512};

@@ -1,0 +1,301 @@
+//! Registers of `f32` lanes: the trait, one lane, and several registers as one.
+
+use std::ops::{Add, Div, Mul, Sub};
+
+/// A register of `f32` lanes with IEEE-754 arithmetic, round to nearest even.
+///
+/// Every method acts lane by lane, and gives each lane the bits that the same
+/// method of `f32` gives. Masks come from comparisons and go into [`select`](Self::select).
+///
+/// A value can be made from nothing only by [`load`](Self::load) and
+/// [`broadcast`](Self::broadcast), whose callers promise that the processor has the
+/// register; that is why every other method is safe.
+pub trait Lanes:
+    Copy + Add<Output = Self> + Sub<Output = Self> + Mul<Output = Self> + Div<Output = Self>
+{
+    /// Lanes in the register.
+    const WIDTH: usize;
+    /// One truth value per lane.
+    type Mask: Copy;
+
+    /// Reads `WIDTH` consecutive values.
+    ///
+    /// # Safety
+    /// The processor has this register, and `from` is readable for `WIDTH` values.
+    unsafe fn load(from: *const f32) -> Self;
+    /// `value` in every lane.
+    ///
+    /// # Safety
+    /// The processor has this register.
+    unsafe fn broadcast(value: f32) -> Self;
+    /// Writes `WIDTH` consecutive values.
+    ///
+    /// # Safety
+    /// `to` is writable for `WIDTH` values.
+    unsafe fn store(self, to: *mut f32);
+
+    /// `value` in every lane.
+    fn splat(self, value: f32) -> Self;
+    /// `self * factor + addend`, rounded once.
+    fn fma(self, factor: Self, addend: Self) -> Self;
+    fn sqrt(self) -> Self;
+    fn floor(self) -> Self;
+    /// The nearest integer, halves to even.
+    fn round(self) -> Self;
+
+    /// `self < other`; false where either is NaN.
+    fn lt(self, other: Self) -> Self::Mask;
+    /// `self == other`; false where either is NaN.
+    fn eq(self, other: Self) -> Self::Mask;
+    fn is_nan(self) -> Self::Mask;
+    /// `yes` where `mask` holds, else `no`.
+    fn select(mask: Self::Mask, yes: Self, no: Self) -> Self;
+    /// `low` where `low > self`, else `self` (NaN too).
+    fn at_least(self, low: Self) -> Self;
+    /// `high` where `high < self`, else `self` (NaN too).
+    fn at_most(self, high: Self) -> Self;
+
+    fn bit_and(self, other: Self) -> Self;
+    fn bit_or(self, other: Self) -> Self;
+    fn bit_xor(self, other: Self) -> Self;
+    /// The bits as integers, added modulo 2³².
+    fn add_bits(self, other: Self) -> Self;
+    /// The bits as integers, subtracted modulo 2³².
+    fn sub_bits(self, other: Self) -> Self;
+    /// The bits shifted left, zeros in.
+    fn shift_left<const N: i32>(self) -> Self;
+    /// The bits as signed integers, shifted right, sign bits in.
+    fn shift_right<const N: i32>(self) -> Self;
+    /// The bits of the lane's value as a signed integer; the value lies within ±2³⁰.
+    fn to_int_bits(self) -> Self;
+    /// The float nearest the signed integer that the bits are.
+    fn from_int_bits(self) -> Self;
+
+    /// The lane with these bits, in every lane.
+    #[inline(always)]
+    fn bits(self, bits: u32) -> Self {
+        self.splat(f32::from_bits(bits))
+    }
+    #[inline(always)]
+    fn neg(self) -> Self {
+        self.bit_xor(self.bits(0x8000_0000))
+    }
+    #[inline(always)]
+    fn abs(self) -> Self {
+        self.bit_and(self.bits(0x7fff_ffff))
+    }
+    /// IEEE-754 2019 `minimum`: NaN if either is NaN, and −0 < +0.
+    #[inline(always)]
+    fn minimum(self, other: Self) -> Self {
+        let smaller = other.at_most(self);
+        let smaller = Self::select(self.eq(other), self.bit_or(other), smaller);
+        Self::select(self.is_nan(), self, smaller)
+    }
+    /// IEEE-754 2019 `maximum`: NaN if either is NaN, and −0 < +0.
+    #[inline(always)]
+    fn maximum(self, other: Self) -> Self {
+        let larger = other.at_least(self);
+        let larger = Self::select(self.eq(other), self.bit_and(other), larger);
+        Self::select(self.is_nan(), self, larger)
+    }
+}
+
+impl Lanes for f32 {
+    const WIDTH: usize = 1;
+    type Mask = bool;
+
+    #[inline(always)]
+    unsafe fn load(from: *const f32) -> Self {
+        // SAFETY: the caller promises a readable value.
+        unsafe { from.read() }
+    }
+    #[inline(always)]
+    unsafe fn broadcast(value: f32) -> Self {
+        value
+    }
+    #[inline(always)]
+    unsafe fn store(self, to: *mut f32) {
+        // SAFETY: the caller promises a writable value.
+        unsafe { to.write(self) }
+    }
+    #[inline(always)]
+    fn splat(self, value: f32) -> Self {
+        value
+    }
+    #[inline(always)]
+    fn fma(self, factor: Self, addend: Self) -> Self {
+        self.mul_add(factor, addend)
+    }
+    #[inline(always)]
+    fn sqrt(self) -> Self {
+        f32::sqrt(self)
+    }
+    #[inline(always)]
+    fn floor(self) -> Self {
+        f32::floor(self)
+    }
+    #[inline(always)]
+    fn round(self) -> Self {
+        self.round_ties_even()
+    }
+    #[inline(always)]
+    fn lt(self, other: Self) -> bool {
+        self < other
+    }
+    #[inline(always)]
+    fn eq(self, other: Self) -> bool {
+        self == other
+    }
+    #[inline(always)]
+    fn is_nan(self) -> bool {
+        f32::is_nan(self)
+    }
+    #[inline(always)]
+    fn select(mask: bool, yes: Self, no: Self) -> Self {
+        if mask { yes } else { no }
+    }
+    #[inline(always)]
+    fn at_least(self, low: Self) -> Self {
+        if low > self { low } else { self }
+    }
+    #[inline(always)]
+    fn at_most(self, high: Self) -> Self {
+        if high < self { high } else { self }
+    }
+    #[inline(always)]
+    fn bit_and(self, other: Self) -> Self {
+        f32::from_bits(self.to_bits() & other.to_bits())
+    }
+    #[inline(always)]
+    fn bit_or(self, other: Self) -> Self {
+        f32::from_bits(self.to_bits() | other.to_bits())
+    }
+    #[inline(always)]
+    fn bit_xor(self, other: Self) -> Self {
+        f32::from_bits(self.to_bits() ^ other.to_bits())
+    }
+    #[inline(always)]
+    fn add_bits(self, other: Self) -> Self {
+        f32::from_bits(self.to_bits().wrapping_add(other.to_bits()))
+    }
+    #[inline(always)]
+    fn sub_bits(self, other: Self) -> Self {
+        f32::from_bits(self.to_bits().wrapping_sub(other.to_bits()))
+    }
+    #[inline(always)]
+    fn shift_left<const N: i32>(self) -> Self {
+        f32::from_bits(self.to_bits() << N)
+    }
+    #[inline(always)]
+    fn shift_right<const N: i32>(self) -> Self {
+        f32::from_bits((self.to_bits() as i32 >> N) as u32)
+    }
+    #[inline(always)]
+    fn to_int_bits(self) -> Self {
+        f32::from_bits(self as i32 as u32)
+    }
+    #[inline(always)]
+    fn from_int_bits(self) -> Self {
+        self.to_bits() as i32 as f32
+    }
+}
+
+/// `N` registers side by side, as one register of `N` times the width.
+#[derive(Clone, Copy)]
+pub struct Many<L, const N: usize>([L; N]);
+
+impl<L: Lanes, const N: usize> Many<L, N> {
+    #[inline(always)]
+    fn each(self, f: impl Fn(L) -> L) -> Self {
+        Many(std::array::from_fn(|i| f(self.0[i])))
+    }
+    #[inline(always)]
+    fn zip(self, other: Self, f: impl Fn(L, L) -> L) -> Self {
+        Many(std::array::from_fn(|i| f(self.0[i], other.0[i])))
+    }
+}
+
+macro_rules! operators_by_register {
+    ($($operator:ident $method:ident),*) => {$(
+        impl<L: Lanes, const N: usize> $operator for Many<L, N> {
+            type Output = Self;
+            #[inline(always)]
+            fn $method(self, other: Self) -> Self {
+                self.zip(other, |a, b| a.$method(b))
+            }
+        }
+    )*};
+}
+operators_by_register!(Add add, Sub sub, Mul mul, Div div);
+
+macro_rules! by_register {
+    (unary $($name:ident),*) => {$(
+        #[inline(always)]
+        fn $name(self) -> Self {
+            self.each(L::$name)
+        }
+    )*};
+    (binary $($name:ident),*) => {$(
+        #[inline(always)]
+        fn $name(self, other: Self) -> Self {
+            self.zip(other, L::$name)
+        }
+    )*};
+}
+
+impl<L: Lanes, const N: usize> Lanes for Many<L, N> {
+    const WIDTH: usize = N * L::WIDTH;
+    type Mask = [L::Mask; N];
+
+    #[inline(always)]
+    unsafe fn load(from: *const f32) -> Self {
+        // SAFETY: the caller promises N * L::WIDTH readable values.
+        Many(std::array::from_fn(|i| unsafe { L::load(from.add(i * L::WIDTH)) }))
+    }
+    #[inline(always)]
+    unsafe fn broadcast(value: f32) -> Self {
+        // SAFETY: the caller promises that the processor has L.
+        Many([unsafe { L::broadcast(value) }; N])
+    }
+    #[inline(always)]
+    unsafe fn store(self, to: *mut f32) {
+        for (i, register) in self.0.into_iter().enumerate() {
+            // SAFETY: the caller promises N * L::WIDTH writable values.
+            unsafe { register.store(to.add(i * L::WIDTH)) }
+        }
+    }
+    #[inline(always)]
+    fn splat(self, value: f32) -> Self {
+        Many([self.0[0].splat(value); N])
+    }
+    #[inline(always)]
+    fn fma(self, factor: Self, addend: Self) -> Self {
+        Many(std::array::from_fn(|i| self.0[i].fma(factor.0[i], addend.0[i])))
+    }
+    #[inline(always)]
+    fn lt(self, other: Self) -> Self::Mask {
+        std::array::from_fn(|i| self.0[i].lt(other.0[i]))
+    }
+    #[inline(always)]
+    fn eq(self, other: Self) -> Self::Mask {
+        std::array::from_fn(|i| self.0[i].eq(other.0[i]))
+    }
+    #[inline(always)]
+    fn is_nan(self) -> Self::Mask {
+        std::array::from_fn(|i| self.0[i].is_nan())
+    }
+    #[inline(always)]
+    fn select(mask: Self::Mask, yes: Self, no: Self) -> Self {
+        Many(std::array::from_fn(|i| L::select(mask[i], yes.0[i], no.0[i])))
+    }
+    #[inline(always)]
+    fn shift_left<const S: i32>(self) -> Self {
+        self.each(|l| l.shift_left::<S>())
+    }
+    #[inline(always)]
+    fn shift_right<const S: i32>(self) -> Self {
+        self.each(|l| l.shift_right::<S>())
+    }
+    by_register!(unary sqrt, floor, round, to_int_bits, from_int_bits);
+    by_register!(binary at_least, at_most, bit_and, bit_or, bit_xor, add_bits, sub_bits, minimum, maximum);
+}

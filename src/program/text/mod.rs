@@ -1,0 +1,35 @@
+//! Formula text: `name = expression` statements, and back.
+//!
+//! ```
+//! use lgp::program::{Names, parse, print};
+//! let names = Names::new(["n_dot_v", "roughness"], ["bias"]);
+//! let program = parse("bias = exp2(-(7*n_dot_v + 4*roughness^2))", &names)?;
+//! assert_eq!(print(&program, &names), "bias = exp2(-(7*n_dot_v + 4*roughness^2))");
+//! # Ok::<(), lgp::program::ParseError>(())
+//! ```
+
+mod lex;
+mod parse;
+mod print;
+
+pub use parse::{FreeConstant, ParseError, Parsed, Scope, parse, parse_open, parse_template};
+pub use print::{format_constant, print};
+
+/// The names of a program's inputs and outputs, in column order.
+#[derive(Clone, Debug, PartialEq, Eq, Default)]
+pub struct Names {
+    pub inputs: Vec<String>,
+    pub outputs: Vec<String>,
+}
+
+impl Names {
+    pub fn new<S: Into<String>>(
+        inputs: impl IntoIterator<Item = S>,
+        outputs: impl IntoIterator<Item = S>,
+    ) -> Names {
+        Names {
+            inputs: inputs.into_iter().map(Into::into).collect(),
+            outputs: outputs.into_iter().map(Into::into).collect(),
+        }
+    }
+}

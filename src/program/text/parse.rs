@@ -1,0 +1,447 @@
+//! Tokens to a program, by recursive descent.
+
+use super::Names;
+use super::lex::{Token, tokens};
+use crate::op::Op;
+use crate::program::{Arg, Draft, Program};
+use crate::suggest::did_you_mean;
+use std::collections::HashMap;
+
+/// Text that is no formula.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+#[error("formula, line {line}, column {column}: {message}\n  {source_line}\n  {:>column$}", "^")]
+pub struct ParseError {
+    /// From 1.
+    pub line: usize,
+    /// In characters, from 1.
+    pub column: usize,
+    pub message: String,
+    /// The line of text in which it stands.
+    pub source_line: String,
+}
+
+impl ParseError {
+    pub(super) fn at(text: &str, offset: usize, message: impl Into<String>) -> ParseError {
+        let before = &text[..offset];
+        let line_start = before.rfind('\n').map_or(0, |i| i + 1);
+        let source_line = text[line_start..].lines().next().unwrap_or("");
+        ParseError {
+            line: before.matches('\n').count() + 1,
+            column: text[line_start..offset].chars().count() + 1,
+            message: message.into(),
+            source_line: source_line.to_owned(),
+        }
+    }
+}
+
+/// A constant that the user leaves to be fitted: `$name`.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct FreeConstant {
+    pub name: String,
+    /// Its place in the constant table.
+    pub index: u16,
+}
+
+/// Which names a text may use.
+#[derive(Clone, Debug)]
+pub enum Scope<'a> {
+    /// Inputs and outputs are those of a dataset.
+    Dataset(&'a Names),
+    /// Unknown names are inputs, in order of appearance; the outputs are those named, or the
+    /// last statement's name where none is.
+    Open { outputs: &'a [String] },
+}
+
+/// What a text says.
+#[derive(Clone, Debug)]
+pub struct Parsed {
+    pub program: Program,
+    pub names: Names,
+    /// The `$name` constants, in order of appearance.
+    pub free: Vec<FreeConstant>,
+}
+
+/// The program of a formula over the given columns.
+///
+/// # Errors
+/// [`ParseError`] says where the text is wrong, and what was probably meant.
+pub fn parse(text: &str, names: &Names) -> Result<Program, ParseError> {
+    let parsed = parse_template(text, Scope::Dataset(names))?;
+    match parsed.free.first() {
+        None => Ok(parsed.program),
+        Some(free) => Err(ParseError::at(
+            text,
+            text.find(&format!("${}", free.name)).unwrap_or(0),
+            format!(
+                "`${}` is a free constant; give it a value, or fit it with `lgp fit`",
+                free.name
+            ),
+        )),
+    }
+}
+
+/// The program of a formula in which unknown names are inputs; see [`Scope::Open`].
+pub fn parse_open(text: &str, outputs: &[String]) -> Result<Parsed, ParseError> {
+    parse_template(text, Scope::Open { outputs })
+}
+
+/// The program of a text that may hold free constants; they start at 1.
+pub fn parse_template(text: &str, scope: Scope) -> Result<Parsed, ParseError> {
+    let mut parser = Parser {
+        text,
+        tokens: tokens(text)?,
+        next: 0,
+        draft: Draft::default(),
+        names: match scope {
+            Scope::Dataset(names) => names.clone(),
+            Scope::Open { outputs } => Names { inputs: Vec::new(), outputs: outputs.to_vec() },
+        },
+        open: matches!(scope, Scope::Open { .. }),
+        assigned: HashMap::new(),
+        last_assigned: None,
+        free: Vec::new(),
+    };
+    parser.statements()?;
+    parser.finish()
+}
+
+struct Parser<'a> {
+    text: &'a str,
+    tokens: Vec<(usize, Token)>,
+    next: usize,
+    draft: Draft,
+    names: Names,
+    open: bool,
+    assigned: HashMap<String, Arg>,
+    last_assigned: Option<String>,
+    free: Vec<FreeConstant>,
+}
+
+type Parse<T> = Result<T, ParseError>;
+
+impl Parser<'_> {
+    fn peek(&self) -> Option<&Token> {
+        self.tokens.get(self.next).map(|(_, token)| token)
+    }
+
+    fn offset(&self) -> usize {
+        self.tokens.get(self.next).map_or(self.text.trim_end().len(), |(at, _)| *at)
+    }
+
+    fn error<T>(&self, offset: usize, message: impl Into<String>) -> Parse<T> {
+        Err(ParseError::at(self.text, offset, message))
+    }
+
+    fn take_symbol(&mut self, symbol: char) -> bool {
+        let found = self.peek() == Some(&Token::Symbol(symbol));
+        self.next += usize::from(found);
+        found
+    }
+
+    fn expect(&mut self, symbol: char, context: &str) -> Parse<()> {
+        if self.take_symbol(symbol) {
+            return Ok(());
+        }
+        self.error(self.offset(), format!("expected `{symbol}` {context}"))
+    }
+
+    fn statements(&mut self) -> Parse<()> {
+        loop {
+            while self.peek() == Some(&Token::End) {
+                self.next += 1;
+            }
+            if self.peek().is_none() {
+                return Ok(());
+            }
+            self.statement()?;
+            match self.peek() {
+                None | Some(Token::End) => {}
+                Some(_) => {
+                    return self.error(
+                        self.offset(),
+                        "expected an operator, or `;` before the next statement",
+                    );
+                }
+            }
+        }
+    }
+
+    fn statement(&mut self) -> Parse<()> {
+        let start = self.offset();
+        let name = match (self.peek().cloned(), self.tokens.get(self.next + 1)) {
+            (Some(Token::Name(name)), Some((_, Token::Symbol('=')))) => {
+                self.next += 2;
+                name
+            }
+            _ => {
+                let example = self.names.outputs.first().map_or("y", String::as_str);
+                return self
+                    .error(start, format!("expected `name = expression`, as in `{example} = …`"));
+            }
+        };
+        if self.names.inputs.contains(&name) {
+            return self.error(start, format!("`{name}` is an input, and cannot be assigned"));
+        }
+        if self.assigned.contains_key(&name) {
+            return self.error(start, format!("`{name}` is assigned twice"));
+        }
+        let value = self.sum()?;
+        self.assigned.insert(name.clone(), value);
+        self.last_assigned = Some(name);
+        Ok(())
+    }
+
+    fn sum(&mut self) -> Parse<Arg> {
+        let mut value = self.product()?;
+        loop {
+            let op = match self.peek() {
+                Some(Token::Symbol('+')) => Op::Add,
+                Some(Token::Symbol('-')) => Op::Sub,
+                _ => return Ok(value),
+            };
+            self.next += 1;
+            let right = self.product()?;
+            value = self.apply(op, &[value, right]);
+        }
+    }
+
+    fn product(&mut self) -> Parse<Arg> {
+        let mut value = self.negation()?;
+        loop {
+            let op = match self.peek() {
+                Some(Token::Symbol('*')) => Op::Mul,
+                Some(Token::Symbol('/')) => Op::Div,
+                _ => return Ok(value),
+            };
+            self.next += 1;
+            let right = self.negation()?;
+            value = self.apply(op, &[value, right]);
+        }
+    }
+
+    fn negation(&mut self) -> Parse<Arg> {
+        if self.take_symbol('+') {
+            return self.negation();
+        }
+        if !self.take_symbol('-') {
+            return self.power();
+        }
+        // `-2` is a constant, but `-2^2` is the negation of a power.
+        let number = match (self.peek(), self.tokens.get(self.next + 1)) {
+            (_, Some((_, Token::Symbol('^')))) => None,
+            (Some(Token::Number(value)), _) => Some(-*value),
+            _ => None,
+        };
+        if let Some(value) = number {
+            self.next += 1;
+            return Ok(self.constant(value));
+        }
+        let value = self.negation()?;
+        Ok(self.apply(Op::Neg, &[value]))
+    }
+
+    fn power(&mut self) -> Parse<Arg> {
+        let base = self.atom()?;
+        if !self.take_symbol('^') {
+            return Ok(base);
+        }
+        let at = self.offset();
+        let exponent = self.exponent()?;
+        self.repeated_product(base, exponent, at)
+    }
+
+    /// A literal, itself perhaps raised to a power: `^` is right-associative.
+    fn exponent(&mut self) -> Parse<f32> {
+        let at = self.offset();
+        let Some(Token::Number(value)) = self.peek().cloned() else {
+            return self.error(
+                at,
+                "an exponent after `^` is 2, 3, 4, 5, 6 or 8; write `pow(x, y)` for others",
+            );
+        };
+        self.next += 1;
+        if self.take_symbol('^') {
+            return Ok(value.powf(self.exponent()?));
+        }
+        Ok(value)
+    }
+
+    fn repeated_product(&mut self, x: Arg, exponent: f32, at: usize) -> Parse<Arg> {
+        let square = |p: &mut Self, x| p.apply(Op::Mul, &[x, x]);
+        match exponent {
+            2.0 => Ok(square(self, x)),
+            3.0 => {
+                let x2 = square(self, x);
+                Ok(self.apply(Op::Mul, &[x2, x]))
+            }
+            4.0 => {
+                let x2 = square(self, x);
+                Ok(square(self, x2))
+            }
+            5.0 => {
+                let x2 = square(self, x);
+                let x4 = square(self, x2);
+                Ok(self.apply(Op::Mul, &[x4, x]))
+            }
+            6.0 => {
+                let x2 = square(self, x);
+                let x3 = self.apply(Op::Mul, &[x2, x]);
+                Ok(square(self, x3))
+            }
+            8.0 => {
+                let x2 = square(self, x);
+                let x4 = square(self, x2);
+                Ok(square(self, x4))
+            }
+            other => self.error(
+                at,
+                format!("`^` takes 2, 3, 4, 5, 6 or 8; write `pow(x, {other})` for this power"),
+            ),
+        }
+    }
+
+    fn atom(&mut self) -> Parse<Arg> {
+        let at = self.offset();
+        let Some(token) = self.peek().cloned() else {
+            return self.error(at, "the formula ends where a value is expected");
+        };
+        self.next += 1;
+        match token {
+            Token::Number(value) => Ok(self.constant(value)),
+            Token::Free(name) => Ok(self.free_constant(name)),
+            Token::Symbol('(') => {
+                let value = self.sum()?;
+                self.expect(')', "to close the parenthesis")?;
+                Ok(value)
+            }
+            Token::Name(name) if self.take_symbol('(') => self.call(&name, at),
+            Token::Name(name) => self.name(name, at),
+            Token::Symbol(symbol) => self.error(at, format!("expected a value, found `{symbol}`")),
+            Token::End => self.error(at, "the statement ends where a value is expected"),
+        }
+    }
+
+    fn name(&mut self, name: String, at: usize) -> Parse<Arg> {
+        if let Some(value) = self.assigned.get(&name) {
+            return Ok(*value);
+        }
+        let known = self.names.inputs.iter().position(|input| *input == name);
+        if let Some(index) = known {
+            return Ok(Arg::Input(index as u16));
+        }
+        if self.names.outputs.contains(&name) {
+            return self.error(at, format!("output `{name}` is used before it is assigned"));
+        }
+        if self.open {
+            self.names.inputs.push(name);
+            self.draft.inputs = self.names.inputs.len();
+            return Ok(Arg::Input((self.names.inputs.len() - 1) as u16));
+        }
+        let candidates = self.names.inputs.iter().chain(self.assigned.keys());
+        let hint = did_you_mean(&name, candidates.map(String::as_str));
+        let inputs = self.names.inputs.join(", ");
+        self.error(at, format!("unknown name `{name}`{hint} (inputs: {inputs})"))
+    }
+
+    fn call(&mut self, name: &str, at: usize) -> Parse<Arg> {
+        let op = match name {
+            "fma" => Op::Mad,
+            "add" | "sub" | "mul" | "div" | "neg" => {
+                return self.error(at, format!("`{name}` has no function form; write + - * /"));
+            }
+            _ => match Op::from_name(name) {
+                Some(op) => op,
+                None => {
+                    let hint = did_you_mean(name, Op::ALL.iter().map(|op| op.name()));
+                    return self.error(at, format!("unknown operation `{name}`{hint}"));
+                }
+            },
+        };
+        let args = if op == Op::Select { self.select_arguments()? } else { self.arguments()? };
+        if args.len() != op.arity() {
+            let (given, wanted) = (args.len(), op.arity());
+            let plural = if wanted == 1 { "" } else { "s" };
+            return self.error(at, format!("`{op}` takes {wanted} argument{plural}, not {given}"));
+        }
+        Ok(self.apply(op, &args))
+    }
+
+    fn arguments(&mut self) -> Parse<Vec<Arg>> {
+        let mut args = vec![self.sum()?];
+        while self.take_symbol(',') {
+            args.push(self.sum()?);
+        }
+        self.expect(')', "after the arguments")?;
+        Ok(args)
+    }
+
+    /// `a < b, x, y)`, or with `>`.
+    fn select_arguments(&mut self) -> Parse<Vec<Arg>> {
+        let left = self.sum()?;
+        let less = self.take_symbol('<');
+        if !less {
+            self.expect('<', "or `>` in the condition of `select(a < b, x, y)`")
+                .or_else(|e| if self.take_symbol('>') { Ok(()) } else { Err(e) })?;
+        }
+        let right = self.sum()?;
+        let mut args = if less { vec![left, right] } else { vec![right, left] };
+        self.expect(',', "after the condition of `select(a < b, x, y)`")?;
+        args.extend(self.arguments()?);
+        Ok(args)
+    }
+
+    fn constant(&mut self, value: f32) -> Arg {
+        let free: Vec<u16> = self.free.iter().map(|f| f.index).collect();
+        let known = (0..self.draft.consts.len()).find(|&i| {
+            self.draft.consts[i].to_bits() == value.to_bits() && !free.contains(&(i as u16))
+        });
+        match known {
+            Some(index) => Arg::Const(index as u16),
+            None => self.draft.constant(value),
+        }
+    }
+
+    fn free_constant(&mut self, name: String) -> Arg {
+        if let Some(known) = self.free.iter().find(|free| free.name == name) {
+            return Arg::Const(known.index);
+        }
+        let arg = self.draft.constant(1.0);
+        if let Arg::Const(index) = arg {
+            self.free.push(FreeConstant { name, index });
+        }
+        arg
+    }
+
+    /// The operation's result; one that the formula has computed already is shared.
+    fn apply(&mut self, op: Op, args: &[Arg]) -> Arg {
+        let instr = crate::program::Instr::new(op, args);
+        match self.draft.instrs.iter().position(|known| *known == instr) {
+            Some(index) => Arg::Result(index as u16),
+            None => self.draft.push(op, args),
+        }
+    }
+
+    fn finish(mut self) -> Parse<Parsed> {
+        let end = self.text.trim_end().len();
+        if self.open && self.names.outputs.is_empty() {
+            self.names.outputs.extend(self.last_assigned.clone());
+        }
+        if self.names.outputs.is_empty() {
+            return self.error(end, "the formula has no statement");
+        }
+        self.draft.inputs = self.names.inputs.len();
+        for output in &self.names.outputs {
+            match self.assigned.get(output) {
+                Some(value) => self.draft.outputs.push(*value),
+                None => {
+                    let hint = did_you_mean(output, self.assigned.keys().map(String::as_str));
+                    return self.error(end, format!("output `{output}` is never assigned{hint}"));
+                }
+            }
+        }
+        let text = self.text;
+        let program = Program::verify(self.draft)
+            .map_err(|invalid| ParseError::at(text, end, invalid.to_string()))?;
+        Ok(Parsed { program, names: self.names, free: self.free })
+    }
+}

@@ -1,0 +1,162 @@
+//! Laws of programs, on random ones.
+
+use lgp::op::Op;
+use lgp::program::{
+    Arg, Constants, Draft, Names, Program, effective, parse, print, structural_hash,
+};
+use proptest::prelude::*;
+
+/// Any operation, arguments taken modulo what exists, constants of every size and sign.
+fn programs() -> impl Strategy<Value = Program> {
+    let constant =
+        prop_oneof![-10.0f32..10.0, Just(0.0), Just(-0.0), Just(1.0), prop::num::f32::NORMAL,];
+    let instr = (0..Op::ALL.len(), prop::array::uniform4(0u16..1000));
+    (
+        prop::collection::vec(constant, 1..6),
+        prop::collection::vec(instr, 1..20),
+        prop::collection::vec(0u16..1000, 1..4),
+    )
+        .prop_map(|(consts, instrs, outputs)| {
+            let mut draft = Draft { inputs: 2, consts, ..Draft::default() };
+            let constants = draft.consts.len() as u16;
+            let pick = |n: u16, earlier: u16| match n % (2 + constants + 2 * earlier) {
+                k if k < 2 => Arg::Input(k),
+                k if k < 2 + constants => Arg::Const(k - 2),
+                k => Arg::Result((k - 2 - constants) / 2),
+            };
+            for (i, (op, args)) in instrs.into_iter().enumerate() {
+                draft.push(Op::ALL[op], &args.map(|n| pick(n, i as u16)));
+            }
+            let instructions = draft.instrs.len() as u16;
+            draft.outputs = outputs.into_iter().map(|n| pick(n, instructions)).collect();
+            Program::verify(draft).expect("arguments are earlier ones")
+        })
+}
+
+fn names(program: &Program) -> Names {
+    let outputs = (0..program.outputs.len()).map(|i| format!("y{i}"));
+    Names { inputs: vec!["n_dot_v".into(), "cos".into()], outputs: outputs.collect() }
+}
+
+fn bits(values: &[f32]) -> Vec<Option<u32>> {
+    values.iter().map(|v| (!v.is_nan()).then(|| v.to_bits())).collect()
+}
+
+fn hash(program: &Program) -> u64 {
+    structural_hash(program, Constants::Exact, &mut Vec::new())
+}
+
+const SAMPLES: [[f32; 2]; 5] =
+    [[0.3, 0.7], [0.0, -0.0], [-2.5, 1.0], [1e-30, 4e30], [f32::NAN, 1.0]];
+
+proptest! {
+    #![proptest_config(ProptestConfig { cases: 2000, failure_persistence: None, ..ProptestConfig::default() })]
+
+    #[test]
+    fn print_and_parse_are_inverse(program in programs()) {
+        let names = names(&program);
+        let text = print(&program, &names);
+        let parsed = parse(&text, &names).map_err(|e| TestCaseError::fail(format!("{text}\n{e}")))?;
+        prop_assert_eq!(print(&parsed, &names), print(&effective(&parsed), &names));
+        prop_assert_eq!(hash(&parsed), hash(&program), "{}", text);
+        for sample in SAMPLES {
+            prop_assert_eq!(bits(&parsed.evaluate(&sample)), bits(&program.evaluate(&sample)));
+        }
+    }
+
+    #[test]
+    fn effective_code_evaluates_bit_for_bit_as_the_whole(program in programs()) {
+        let effective = effective(&program);
+        prop_assert!(effective.instrs.len() <= program.instrs.len());
+        for sample in SAMPLES {
+            prop_assert_eq!(bits(&effective.evaluate(&sample)), bits(&program.evaluate(&sample)));
+        }
+    }
+
+    #[test]
+    fn the_hash_sees_neither_introns_nor_operand_order_where_it_commutes(
+        program in programs(), swap in prop::collection::vec(any::<bool>(), 20), op in 0..Op::ALL.len()
+    ) {
+        prop_assert_eq!(hash(&effective(&program)), hash(&program));
+        let mut draft = program.clone().into_draft();
+        draft.push(Op::ALL[op], &[Arg::Input(0); 4]);
+        for (instr, swap) in draft.instrs.iter_mut().zip(swap) {
+            if swap && instr.op().commutes() {
+                instr.args_mut().swap(0, 1);
+            }
+        }
+        prop_assert_eq!(hash(&Program::verify(draft).unwrap()), hash(&program));
+    }
+
+    #[test]
+    fn the_hash_sees_a_change_of_operation(program in programs(), at in 0usize..20) {
+        let program = effective(&program);
+        prop_assume!(!program.instrs.is_empty());
+        let at = at % program.instrs.len();
+        let mut draft = program.clone().into_draft();
+        let instr = draft.instrs[at];
+        let other = if instr.op() == Op::Sub { Op::Min } else { Op::Sub };
+        let mut args = instr.args().to_vec();
+        args.resize(4, Arg::Input(0));
+        draft.instrs[at] = lgp::program::Instr::new(other, &args);
+        prop_assert_ne!(hash(&Program::verify(draft).unwrap()), hash(&program));
+    }
+}
+
+#[test]
+fn drafts_that_refer_to_nothing_are_refused() {
+    let mut draft = Draft { inputs: 1, ..Draft::default() };
+    assert!(Program::verify(draft.clone()).is_err(), "no output");
+    let forward = draft.push(Op::Add, &[Arg::Result(0), Arg::Input(0)]);
+    draft.outputs = vec![forward];
+    let error = Program::verify(draft.clone()).unwrap_err().to_string();
+    assert!(error.contains("does not come before"), "{error}");
+    draft.instrs[0] = lgp::program::Instr::new(Op::Add, &[Arg::Input(1), Arg::Input(0)]);
+    assert!(Program::verify(draft.clone()).unwrap_err().to_string().contains("input 1"));
+    draft.instrs[0] = lgp::program::Instr::new(Op::Add, &[Arg::Const(0), Arg::Input(0)]);
+    assert!(Program::verify(draft.clone()).unwrap_err().to_string().contains("constant 0"));
+    draft.consts = vec![f32::NAN];
+    assert!(Program::verify(draft).unwrap_err().to_string().contains("NaN"));
+}
+
+#[test]
+fn text_means_what_the_grammar_says() {
+    let names = Names::new(["x", "y"], ["f"]);
+    let value = |text: &str, x: f32, y: f32| parse(text, &names).unwrap().evaluate(&[x, y])[0];
+    assert_eq!(value("f = -x^2", 3.0, 0.0), -9.0);
+    assert_eq!(value("f = 2^3^1", 0.0, 0.0), 8.0);
+    assert_eq!(value("f = x - y - 1", 5.0, 2.0), 2.0);
+    assert_eq!(value("f = x/y/2", 8.0, 2.0), 2.0);
+    assert_eq!(value("t = x + 1; f = t*t # a square", 2.0, 0.0), 9.0);
+    assert_eq!(value("f = select(x > y, 1, 2)", 2.0, 1.0), 1.0);
+    assert_eq!(value("f = select(x < y, 1, 2)", 2.0, 1.0), 2.0);
+    assert_eq!(value("f = atan2(y, x)", -1.0, 0.0), std::f32::consts::PI);
+    assert_eq!(value("f = fma(x,\n y, .5e1)", 2.0, 3.0), 11.0);
+    assert_eq!(parse("f = x^8", &names).unwrap().instrs.len(), 3);
+}
+
+#[test]
+fn errors_say_where_and_what_was_meant() {
+    let names = Names::new(["n_dot_v", "roughness"], ["bias"]);
+    let error = |text: &str| parse(text, &names).unwrap_err().to_string();
+    for (text, expected) in [
+        ("bias = rougness", "did you mean `roughness`?"),
+        ("bias = sqt(roughness)", "did you mean `sqrt`?"),
+        ("bias = roughness^7", "pow(x, 7)"),
+        ("bias = (roughness", "expected `)`"),
+        ("bias = ", "ends where a value is expected"),
+        ("bias = 1 2", "expected an operator"),
+        ("bais = 1", "output `bias` is never assigned; did you mean `bais`?"),
+        ("bias = 1; bias = 2", "assigned twice"),
+        ("roughness = 1; bias = 2", "is an input"),
+        ("bias = min(roughness)", "takes 2 arguments, not 1"),
+        ("bias = $a*roughness", "free constant"),
+        ("bias = 1e99", "too large"),
+        ("bias = add(1, 2)", "no function form"),
+        ("bias = roughness ? 1", "no meaning"),
+        ("t = 1;\nbias = nope", "line 2, column 8"),
+    ] {
+        let message = error(text);
+        assert!(message.contains(expected), "{text}: {message}");
+    }
+}
