@@ -1,5 +1,7 @@
 //! Symbolic regression for shaders.
 
+pub mod dataset;
+pub mod eval;
 pub mod num;
 pub mod op;
 pub mod program;

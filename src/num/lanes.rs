@@ -69,7 +69,7 @@ pub trait Lanes:
     /// The bits of the lane's value as a signed integer; the value lies within ±2³⁰.
     fn to_int_bits(self) -> Self;
     /// The float nearest the signed integer that the bits are.
-    fn from_int_bits(self) -> Self;
+    fn int_to_float(self) -> Self;
 
     /// The lane with these bits, in every lane.
     #[inline(always)]
@@ -195,7 +195,7 @@ impl Lanes for f32 {
         f32::from_bits(self as i32 as u32)
     }
     #[inline(always)]
-    fn from_int_bits(self) -> Self {
+    fn int_to_float(self) -> Self {
         self.to_bits() as i32 as f32
     }
 }
@@ -203,6 +203,13 @@ impl Lanes for f32 {
 /// `N` registers side by side, as one register of `N` times the width.
 #[derive(Clone, Copy)]
 pub struct Many<L, const N: usize>([L; N]);
+
+impl<const N: usize> Many<f32, N> {
+    /// The lanes, first to last.
+    pub fn to_array(self) -> [f32; N] {
+        self.0
+    }
+}
 
 impl<L: Lanes, const N: usize> Many<L, N> {
     #[inline(always)]
@@ -296,6 +303,6 @@ impl<L: Lanes, const N: usize> Lanes for Many<L, N> {
     fn shift_right<const S: i32>(self) -> Self {
         self.each(|l| l.shift_right::<S>())
     }
-    by_register!(unary sqrt, floor, round, to_int_bits, from_int_bits);
+    by_register!(unary sqrt, floor, round, to_int_bits, int_to_float);
     by_register!(binary at_least, at_most, bit_and, bit_or, bit_xor, add_bits, sub_bits, minimum, maximum);
 }

@@ -34,8 +34,7 @@ pub fn exp2<L: Lanes>(x: L) -> L {
     let x = x.at_least(x.splat(-151.0)).at_most(x.splat(129.0));
     let n = x.round();
     let f = x - n;
-    let p =
-        polynomial(f, [0.6931472, 0.24022648, 0.055503596, 0.009618499, 0.001339097, 0.0001532931]);
+    let p = polynomial(f, [LN_2, 0.24022648, 0.055503596, 0.009618499, 0.001339097, 0.0001532931]);
     let result = scale_by_power_of_two(f.fma(p, f.splat(1.0)), n);
     L::select(x.is_nan(), x, result)
 }
@@ -62,7 +61,7 @@ fn exponent_and_fraction<L: Lanes>(x: L) -> (L, L) {
     let offset = L::select(denormal, x.splat(-23.0), x.splat(0.0));
     let e = scaled.sub_bits(x.bits(0x3f35_04f3)).shift_right::<23>();
     let fraction = scaled.sub_bits(e.shift_left::<23>()) - x.splat(1.0);
-    (e.from_int_bits() + offset, fraction)
+    (e.int_to_float() + offset, fraction)
 }
 
 /// `(ln(1 + f) − f) / f²` for `1 + f` in [√½, √2].
@@ -154,7 +153,7 @@ fn sin_shifted<L: Lanes>(x: L, q: u32) -> L {
     let (r, n) = quadrant(x);
     let (sin, cos) = sin_cos_reduced(r);
     let n = n.add_bits(x.bits(q));
-    let odd = n.bit_and(x.bits(1)).from_int_bits().eq(x.splat(1.0));
+    let odd = n.bit_and(x.bits(1)).int_to_float().eq(x.splat(1.0));
     let sign = n.bit_and(x.bits(2)).shift_left::<30>();
     let result = L::select(odd, cos, sin).bit_xor(sign);
     // ∞ − ∞ and the clamped n of huge arguments leave r without meaning.
@@ -269,7 +268,7 @@ pub fn atan2<L: Lanes>(y: L, x: L) -> L {
     let t = atan_reduced(ratio);
     let t = L::select(steep, x.splat(FRAC_PI_2) - t, t);
     let sign = x.bits(0x8000_0000);
-    let left = x.bit_and(sign).shift_right::<31>().from_int_bits().lt(zero);
+    let left = x.bit_and(sign).shift_right::<31>().int_to_float().lt(zero);
     let t = L::select(left, x.splat(PI) - t, t);
     let result = t.bit_or(y.bit_and(sign));
     L::select(x.is_nan(), x, L::select(y.is_nan(), y, result))

@@ -111,7 +111,7 @@ impl Lanes for Avx2 {
         add_bits(b) = |a, b| _mm256_castsi256_ps(_mm256_add_epi32(_mm256_castps_si256(a), _mm256_castps_si256(b)));
         sub_bits(b) = |a, b| _mm256_castsi256_ps(_mm256_sub_epi32(_mm256_castps_si256(a), _mm256_castps_si256(b)));
         to_int_bits() = |a| _mm256_castsi256_ps(_mm256_cvttps_epi32(a));
-        from_int_bits() = |a| _mm256_cvtepi32_ps(_mm256_castps_si256(a));
+        int_to_float() = |a| _mm256_cvtepi32_ps(_mm256_castps_si256(a));
     }
 }
 
@@ -187,7 +187,7 @@ impl Lanes for Avx512 {
         add_bits(b) = |a, b| _mm512_castsi512_ps(_mm512_add_epi32(_mm512_castps_si512(a), _mm512_castps_si512(b)));
         sub_bits(b) = |a, b| _mm512_castsi512_ps(_mm512_sub_epi32(_mm512_castps_si512(a), _mm512_castps_si512(b)));
         to_int_bits() = |a| _mm512_castsi512_ps(_mm512_cvttps_epi32(a));
-        from_int_bits() = |a| _mm512_cvtepi32_ps(_mm512_castps_si512(a));
+        int_to_float() = |a| _mm512_cvtepi32_ps(_mm512_castps_si512(a));
         // VRANGEPS orders −0 < +0 but drops a quiet NaN of one side, so the sum restores it.
         minimum(b) = |a, b| {
             let nan = _mm512_cmp_ps_mask::<_CMP_UNORD_Q>(a, b);

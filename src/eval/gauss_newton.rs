@@ -1,0 +1,174 @@
+//! The normal equations of a least-squares fit, accumulated as the chunks pass.
+
+use super::isa::by_isa;
+use super::kernels::{CHUNK_BLOCKS, Chunk, Source};
+use super::loss::sum;
+use super::{Evaluator, Samples, Tape, run};
+use crate::num::Lanes;
+
+/// Which of a tape's outputs are derivatives: the first `outputs` are values, and each further
+/// one is the derivative of a value by a parameter. What is not listed is zero.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Jacobian {
+    /// How many of the tape's outputs are values.
+    pub outputs: usize,
+    pub parameters: usize,
+    /// For each value, its parameters and the tape's output that is the derivative by it.
+    pub entries: Vec<Vec<(u16, u16)>>,
+}
+
+/// `JᵀWJ`, `JᵀWr` and `rᵀWr` with `r = f − y`, over all values.
+#[derive(Clone, Debug, Default)]
+pub struct NormalEquations {
+    /// Row-major, lower triangle filled.
+    pub matrix: Vec<f64>,
+    pub gradient: Vec<f64>,
+    pub sum_of_squares: f64,
+}
+
+impl NormalEquations {
+    fn clear(&mut self, parameters: usize) {
+        self.matrix.clear();
+        self.matrix.resize(parameters * parameters, 0.0);
+        self.gradient.clear();
+        self.gradient.resize(parameters, 0.0);
+        self.sum_of_squares = 0.0;
+    }
+}
+
+impl Evaluator {
+    /// Accumulates the normal equations of the tape's values against the samples' targets. Sums are
+    /// `f32` within a lane of a chunk, `f64` beyond.
+    ///
+    /// # Panics
+    /// If the samples have another number of inputs or outputs than the tape has inputs or values.
+    pub fn normal_equations(
+        &mut self,
+        tape: &Tape,
+        jacobian: &Jacobian,
+        samples: &Samples,
+        equations: &mut NormalEquations,
+    ) {
+        assert_eq!(jacobian.outputs, samples.outputs(), "a target for each value");
+        self.reserve(tape);
+        equations.clear(jacobian.parameters);
+        for first in (0..samples.blocks()).step_by(CHUNK_BLOCKS) {
+            let chunk = Chunk::new(tape, samples, &mut self.slots, first);
+            run(self.isa, &chunk);
+            accumulate(self.isa, &chunk, jacobian, equations);
+        }
+    }
+}
+
+by_isa! {
+    /// Adds the products of a chunk whose tape was run.
+    fn accumulate(chunk: &Chunk, jacobian: &Jacobian, equations: &mut NormalEquations) -> () = accumulate_in
+}
+
+/// # Safety
+/// The processor has `L`, whose width is the block's.
+#[inline(always)]
+unsafe fn accumulate_in<L: Lanes>(
+    chunk: &Chunk,
+    jacobian: &Jacobian,
+    equations: &mut NormalEquations,
+) {
+    let weights = chunk.rows_of(chunk.samples.weights());
+    let output = |index: u16| chunk.source(chunk.tape.outputs[usize::from(index)]);
+    for (o, entries) in jacobian.entries.iter().enumerate() {
+        let residual =
+            Residual { values: output(o as u16), targets: chunk.rows_of(chunk.samples.target(o)) };
+        // SAFETY: promised by the caller; every source holds the chunk's blocks.
+        unsafe {
+            equations.sum_of_squares += residual.squares::<L>(weights, chunk.blocks);
+            for (place, &(row, derivative)) in entries.iter().enumerate() {
+                let left = output(derivative);
+                equations.gradient[usize::from(row)] +=
+                    residual.product::<L>(weights, left, chunk.blocks);
+                for pair in entries[..=place].chunks(4) {
+                    let right = std::array::from_fn(|k| output(pair[k.min(pair.len() - 1)].1));
+                    let products = products::<L>(weights, left, right, chunk.blocks);
+                    for (&(column, _), product) in pair.iter().zip(products) {
+                        let (low, high) = (row.min(column), row.max(column));
+                        let at = usize::from(high) * jacobian.parameters + usize::from(low);
+                        equations.matrix[at] += product;
+                    }
+                }
+            }
+        }
+    }
+}
+
+/// `f − y` of one value in a chunk.
+struct Residual {
+    values: Source,
+    targets: Source,
+}
+
+impl Residual {
+    /// # Safety
+    /// As [`accumulate_in`]; the sources hold `blocks` blocks.
+    #[inline(always)]
+    unsafe fn block<L: Lanes>(&self, i: usize) -> L {
+        // SAFETY: promised by the caller.
+        unsafe { self.values.block::<L>(i) - self.targets.block::<L>(i) }
+    }
+
+    /// `Σ w r²`
+    ///
+    /// # Safety
+    /// As [`accumulate_in`]; the sources hold `blocks` blocks.
+    #[inline(always)]
+    unsafe fn squares<L: Lanes>(&self, weights: Source, blocks: usize) -> f64 {
+        // SAFETY: promised by the caller.
+        unsafe {
+            let mut total = L::broadcast(0.0);
+            for i in 0..blocks {
+                let r = self.block::<L>(i);
+                total = (weights.block::<L>(i) * r).fma(r, total);
+            }
+            sum(total)
+        }
+    }
+
+    /// `Σ w r d`
+    ///
+    /// # Safety
+    /// As [`accumulate_in`]; the sources hold `blocks` blocks.
+    #[inline(always)]
+    unsafe fn product<L: Lanes>(&self, weights: Source, derivative: Source, blocks: usize) -> f64 {
+        // SAFETY: promised by the caller.
+        unsafe {
+            let mut total = L::broadcast(0.0);
+            for i in 0..blocks {
+                let r = self.block::<L>(i);
+                total = (weights.block::<L>(i) * r).fma(derivative.block::<L>(i), total);
+            }
+            sum(total)
+        }
+    }
+}
+
+/// `Σ w d e` for one derivative and four others.
+///
+/// # Safety
+/// As [`accumulate_in`]; the sources hold `blocks` blocks.
+#[inline(always)]
+unsafe fn products<L: Lanes>(
+    weights: Source,
+    left: Source,
+    right: [Source; 4],
+    blocks: usize,
+) -> [f64; 4] {
+    // SAFETY: promised by the caller.
+    unsafe {
+        let mut totals = [L::broadcast(0.0); 4];
+        for i in 0..blocks {
+            let weighted = weights.block::<L>(i) * left.block::<L>(i);
+            for (total, right) in totals.iter_mut().zip(right) {
+                *total = weighted.fma(right.block::<L>(i), *total);
+            }
+        }
+        totals.map(|total| sum(total))
+    }
+}

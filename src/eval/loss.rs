@@ -1,0 +1,120 @@
+//! Errors of a program on samples, taken as the chunks pass.
+
+use super::isa::by_isa;
+use super::kernels::{CHUNK_BLOCKS, Chunk};
+use super::{BLOCK, Evaluator, Samples, Tape, run};
+use crate::num::Lanes;
+
+/// Errors against the samples' targets, for each output.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Loss {
+    /// `Σ w (f − y)²`: in `f32` within a lane of a chunk, in `f64` beyond. Not finite if any
+    /// of the program's outputs is not.
+    pub sum_of_squares: Vec<f64>,
+    /// `max |f − y|`, unweighted; NaN if any of the program's outputs is.
+    pub max_error: Vec<f32>,
+    /// Whether the sums stop early because they exceeded the bound.
+    pub abandoned: bool,
+}
+
+impl Loss {
+    /// The sum of squares over all outputs.
+    pub fn total(&self) -> f64 {
+        self.sum_of_squares.iter().sum()
+    }
+}
+
+impl Evaluator {
+    /// The errors of a program's outputs, in order, against the samples' targets. Stops after the
+    /// chunk in which the total exceeds `bound` or ceases to be a number.
+    ///
+    /// # Panics
+    /// If the samples have another number of inputs or outputs than the program.
+    pub fn loss(&mut self, tape: &Tape, samples: &Samples, bound: f64) -> Loss {
+        let mut loss = Loss::default();
+        self.loss_into(tape, samples, bound, &mut loss);
+        loss
+    }
+
+    /// [`Evaluator::loss`] without an allocation.
+    pub fn loss_into(&mut self, tape: &Tape, samples: &Samples, bound: f64, loss: &mut Loss) {
+        assert_eq!(tape.outputs.len(), samples.outputs(), "a target for each output");
+        self.reserve(tape);
+        loss.sum_of_squares.clear();
+        loss.sum_of_squares.resize(tape.outputs.len(), 0.0);
+        loss.max_error.clear();
+        loss.max_error.resize(tape.outputs.len(), 0.0);
+        loss.abandoned = false;
+        for first in (0..samples.blocks()).step_by(CHUNK_BLOCKS) {
+            let chunk = Chunk::new(tape, samples, &mut self.slots, first);
+            run(self.isa, &chunk);
+            accumulate(self.isa, &chunk, loss);
+            let total = loss.total();
+            if total > bound || total.is_nan() {
+                loss.abandoned = first + CHUNK_BLOCKS < samples.blocks();
+                return;
+            }
+        }
+    }
+}
+
+by_isa! {
+    /// Adds the errors of a chunk whose tape was run.
+    fn accumulate(chunk: &Chunk, loss: &mut Loss) -> () = accumulate_in
+}
+
+/// # Safety
+/// The processor has `L`, whose width is [`BLOCK`].
+#[inline(always)]
+unsafe fn accumulate_in<L: Lanes>(chunk: &Chunk, loss: &mut Loss) {
+    let weights = chunk.rows_of(chunk.samples.weights());
+    for (o, &output) in chunk.tape.outputs.iter().enumerate() {
+        let values = chunk.source(output);
+        let targets = chunk.rows_of(chunk.samples.target(o));
+        // SAFETY: promised by the caller; block `i` lies within the chunk.
+        unsafe {
+            let mut squares = L::broadcast(0.0);
+            let mut largest = L::broadcast(0.0);
+            for i in 0..chunk.blocks {
+                let difference = values.block::<L>(i) - targets.block::<L>(i);
+                let weighted = weights.block::<L>(i) * difference;
+                squares = weighted.fma(difference, squares);
+                largest = largest.maximum(difference.abs());
+            }
+            loss.sum_of_squares[o] += sum(squares);
+            loss.max_error[o] = Lanes::maximum(loss.max_error[o], max(largest));
+        }
+    }
+}
+
+/// The lanes as an array.
+///
+/// # Safety
+/// `L`'s width is [`BLOCK`].
+#[inline(always)]
+unsafe fn lanes<L: Lanes>(register: L) -> [f32; BLOCK] {
+    let mut lanes = [0.0; BLOCK];
+    // SAFETY: promised by the caller.
+    unsafe { register.store(lanes.as_mut_ptr()) };
+    lanes
+}
+
+/// The sum of the lanes, first to last, in `f64`.
+///
+/// # Safety
+/// `L`'s width is [`BLOCK`].
+#[inline(always)]
+pub(super) unsafe fn sum<L: Lanes>(register: L) -> f64 {
+    // SAFETY: promised by the caller.
+    unsafe { lanes(register) }.iter().map(|&lane| f64::from(lane)).sum()
+}
+
+/// The largest lane; NaN if any is.
+///
+/// # Safety
+/// `L`'s width is [`BLOCK`].
+#[inline(always)]
+unsafe fn max<L: Lanes>(register: L) -> f32 {
+    // SAFETY: promised by the caller.
+    unsafe { lanes(register) }.into_iter().fold(0.0, Lanes::maximum)
+}

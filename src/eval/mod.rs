@@ -1,0 +1,109 @@
+//! Programs over many samples.
+//!
+//! A [`Tape`] is a program prepared for the kernels, [`Samples`] a table laid out for them.
+//! An [`Evaluator`] owns the scratch memory and runs one on the other, chunk by chunk, in the
+//! widest registers that the processor has: the same bits at every width, and the same bits as
+//! [`Program::evaluate`](crate::program::Program::evaluate). Nothing is "protected": what is
+//! not finite is reported as such.
+//!
+//! ```
+//! use lgp::dataset::Split;
+//! use lgp::eval::{Evaluator, Samples, Tape};
+//! use lgp::program::{Names, parse};
+//! let names = Names::new(["x"], ["y"]);
+//! let tape = Tape::new(&parse("y = 2*x", &names)?);
+//! let split = Split { columns: vec![vec![1.0, 2.0], vec![2.0, 5.0]], ..Split::default() };
+//! let samples = Samples::new(&split, 1);
+//! let loss = Evaluator::default().loss(&tape, &samples, f64::INFINITY);
+//! assert_eq!(loss.sum_of_squares, [1.0]);
+//! # Ok::<(), lgp::program::ParseError>(())
+//! ```
+
+mod gauss_newton;
+mod isa;
+mod kernels;
+mod loss;
+mod samples;
+mod tape;
+
+pub use gauss_newton::{Jacobian, NormalEquations};
+pub use isa::Isa;
+pub use loss::Loss;
+pub use samples::Samples;
+pub use tape::Tape;
+
+use crate::num::{Lanes, Many};
+use isa::by_isa;
+use kernels::{CHUNK_BLOCKS, Chunk};
+use samples::Block;
+
+/// Lanes that kernels handle at once, whatever the register: reductions run over as many partial
+/// sums, so that they too have the same bits at every width.
+pub const BLOCK: usize = 16;
+
+/// Samples of a chunk: a program's slots and columns of this length fit the first-level cache.
+pub const CHUNK: usize = 512;
+
+/// Runs tapes; owns the memory that they need.
+#[derive(Clone, Debug)]
+pub struct Evaluator {
+    isa: Isa,
+    slots: Vec<Block>,
+}
+
+impl Default for Evaluator {
+    fn default() -> Evaluator {
+        Evaluator::new(Isa::best())
+    }
+}
+
+impl Evaluator {
+    pub fn new(isa: Isa) -> Evaluator {
+        Evaluator { isa, slots: Vec::new() }
+    }
+
+    /// Every output's values, one vector each of `samples.rows()` values.
+    ///
+    /// # Panics
+    /// If the samples have another number of inputs than the program.
+    pub fn outputs(&mut self, tape: &Tape, samples: &Samples) -> Vec<Vec<f32>> {
+        self.reserve(tape);
+        let mut values = vec![Vec::with_capacity(samples.blocks() * BLOCK); tape.outputs.len()];
+        for first in (0..samples.blocks()).step_by(CHUNK_BLOCKS) {
+            let chunk = Chunk::new(tape, samples, &mut self.slots, first);
+            run(self.isa, &chunk);
+            for (&output, values) in tape.outputs.iter().zip(&mut values) {
+                let source = chunk.source(output);
+                for i in 0..chunk.blocks {
+                    // SAFETY: `i` lies within the chunk, and every processor has `f32`.
+                    let block = unsafe { source.block::<Many<f32, BLOCK>>(i) };
+                    values.extend_from_slice(&block.to_array());
+                }
+            }
+        }
+        for column in &mut values {
+            column.truncate(samples.rows());
+        }
+        values
+    }
+
+    fn reserve(&mut self, tape: &Tape) {
+        let blocks = tape.slots * CHUNK_BLOCKS;
+        if self.slots.len() < blocks {
+            self.slots.resize(blocks, Block([0.0; BLOCK]));
+        }
+    }
+}
+
+by_isa! {
+    /// Carries out every step of a chunk's tape.
+    fn run(chunk: &Chunk) -> () = run_in
+}
+
+/// # Safety
+/// The processor has `L`, whose width is [`BLOCK`].
+#[inline(always)]
+unsafe fn run_in<L: Lanes>(chunk: &Chunk) {
+    // SAFETY: promised by the caller.
+    unsafe { chunk.run::<L>() }
+}

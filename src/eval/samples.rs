@@ -1,0 +1,105 @@
+//! Samples laid out for the kernels.
+
+use super::BLOCK;
+use crate::dataset::Split;
+
+/// One register's worth of values, aligned to it.
+#[derive(Clone, Copy, Debug)]
+#[repr(C, align(64))]
+pub(super) struct Block(pub [f32; BLOCK]);
+
+/// The rows of a split, column by column, each column padded to whole blocks by its last
+/// value, with weight 0.
+#[derive(Clone, Debug)]
+pub struct Samples {
+    rows: usize,
+    blocks: usize,
+    inputs: usize,
+    outputs: usize,
+    /// Inputs, outputs, weights; `blocks` each.
+    values: Vec<Block>,
+    total_weight: f64,
+}
+
+impl Samples {
+    /// All rows of a split whose first `inputs` columns are the inputs.
+    pub fn new(split: &Split, inputs: usize) -> Samples {
+        let rows: Vec<u32> = (0..split.rows() as u32).collect();
+        Samples::of_rows(split, inputs, &rows)
+    }
+
+    /// The given rows of a split.
+    ///
+    /// # Panics
+    /// If `rows` is empty or names a row that the split lacks.
+    pub fn of_rows(split: &Split, inputs: usize, rows: &[u32]) -> Samples {
+        assert!(!rows.is_empty(), "at least one row");
+        let blocks = rows.len().div_ceil(BLOCK);
+        let columns = split.columns.len();
+        let mut values = Vec::with_capacity((columns + 1) * blocks);
+        for column in &split.columns {
+            push_column(&mut values, rows, |row| column[row], |last| last);
+        }
+        push_column(&mut values, rows, |row| split.weight(row), |_| 0.0);
+        let total_weight = rows.iter().map(|&row| f64::from(split.weight(row as usize))).sum();
+        Samples {
+            rows: rows.len(),
+            blocks,
+            inputs,
+            outputs: columns - inputs,
+            values,
+            total_weight,
+        }
+    }
+
+    /// The number of samples.
+    pub fn rows(&self) -> usize {
+        self.rows
+    }
+
+    pub fn inputs(&self) -> usize {
+        self.inputs
+    }
+
+    pub fn outputs(&self) -> usize {
+        self.outputs
+    }
+
+    /// The sum of the samples' weights.
+    pub fn total_weight(&self) -> f64 {
+        self.total_weight
+    }
+
+    pub(super) fn blocks(&self) -> usize {
+        self.blocks
+    }
+
+    /// A whole column: an input, then an output, then the weights.
+    pub(super) fn column(&self, index: usize) -> &[Block] {
+        &self.values[index * self.blocks..(index + 1) * self.blocks]
+    }
+
+    pub(super) fn weights(&self) -> &[Block] {
+        self.column(self.inputs + self.outputs)
+    }
+
+    pub(super) fn target(&self, output: usize) -> &[Block] {
+        self.column(self.inputs + output)
+    }
+}
+
+fn push_column(
+    values: &mut Vec<Block>,
+    rows: &[u32],
+    value: impl Fn(usize) -> f32,
+    padding: impl Fn(f32) -> f32,
+) {
+    for chunk in rows.chunks(BLOCK) {
+        let last = value(chunk[chunk.len() - 1] as usize);
+        let mut block = Block([padding(last); BLOCK]);
+        for (to, &row) in block.0.iter_mut().zip(chunk) {
+            *to = value(row as usize);
+        }
+        values.push(block);
+    }
+}

@@ -1,0 +1,112 @@
+//! A program prepared for the kernels: effective instructions with their results in slots,
+//! a slot reused as soon as nothing reads it any more.
+
+use super::BLOCK;
+use super::samples::Block;
+use crate::op::{MAX_ARITY, Op};
+use crate::program::{Arg, Program, use_counts};
+
+/// Where a kernel reads.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Operand {
+    Column(u16),
+    Const(u16),
+    Slot(u16),
+}
+
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Step {
+    pub op: Op,
+    pub to: u16,
+    /// Places beyond the arity repeat the first.
+    pub from: [Operand; MAX_ARITY],
+}
+
+/// A prepared program. Preparing another one reuses the allocations.
+#[derive(Clone, Debug, Default)]
+pub struct Tape {
+    pub(super) inputs: usize,
+    pub(super) steps: Vec<Step>,
+    /// Each constant in every lane.
+    pub(super) consts: Vec<Block>,
+    pub(super) outputs: Vec<Operand>,
+    pub(super) slots: usize,
+    remaining_reads: Vec<u32>,
+    slot_of: Vec<u16>,
+    free: Vec<u16>,
+}
+
+impl Tape {
+    /// Prepares a program.
+    pub fn new(program: &Program) -> Tape {
+        let mut tape = Tape::default();
+        tape.prepare(program);
+        tape
+    }
+
+    /// Prepares another program in place of this one.
+    pub fn prepare(&mut self, program: &Program) {
+        self.inputs = program.inputs;
+        self.steps.clear();
+        self.slots = 0;
+        self.free.clear();
+        self.slot_of.clear();
+        self.slot_of.resize(program.instrs.len(), 0);
+        use_counts(program, &mut self.remaining_reads);
+        self.set_constants(&program.consts);
+        for (i, instr) in program.instrs.iter().enumerate() {
+            if self.remaining_reads[i] == 0 {
+                continue;
+            }
+            let mut from = [self.operand(instr.args()[0]); MAX_ARITY];
+            for (to, &arg) in from.iter_mut().zip(instr.args()) {
+                *to = self.operand(arg);
+            }
+            for &arg in instr.args() {
+                self.release(arg);
+            }
+            let to = self.free.pop().unwrap_or_else(|| {
+                self.slots += 1;
+                (self.slots - 1) as u16
+            });
+            self.slot_of[i] = to;
+            self.steps.push(Step { op: instr.op(), to, from });
+        }
+        self.outputs.clear();
+        for &output in &program.outputs {
+            let operand = self.operand(output);
+            self.outputs.push(operand);
+        }
+    }
+
+    /// Replaces the constants of the prepared program.
+    pub fn set_constants(&mut self, consts: &[f32]) {
+        self.consts.clear();
+        self.consts.extend(consts.iter().map(|&c| Block([c; BLOCK])));
+    }
+
+    /// The number of operations it carries out for each sample.
+    pub fn operations(&self) -> usize {
+        self.steps.len()
+    }
+
+    fn operand(&self, arg: Arg) -> Operand {
+        match arg {
+            Arg::Input(i) => Operand::Column(i),
+            Arg::Const(i) => Operand::Const(i),
+            Arg::Result(i) => Operand::Slot(self.slot_of[usize::from(i)]),
+        }
+    }
+
+    /// Notes one read of a result, and frees its slot after the last. An output counts as a
+    /// read that never comes, so its slot stays.
+    fn release(&mut self, arg: Arg) {
+        if let Arg::Result(i) = arg {
+            let reads = &mut self.remaining_reads[usize::from(i)];
+            *reads -= 1;
+            if *reads == 0 {
+                self.free.push(self.slot_of[usize::from(i)]);
+            }
+        }
+    }
+}
