@@ -2,6 +2,7 @@
 
 pub mod dataset;
 pub mod eval;
+pub mod fit;
 pub mod num;
 pub mod op;
 pub mod program;

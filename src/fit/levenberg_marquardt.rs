@@ -1,0 +1,145 @@
+//! Levenberg–Marquardt (Marquardt 1963, with his scaling by the diagonal).
+
+use super::Differentiated;
+use crate::eval::{Evaluator, NormalEquations, Samples, Tape};
+use crate::program::Draft;
+
+/// When a fit ends.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Stop {
+    pub max_steps: u32,
+    /// A step that lowers the sum of squares by less than this share is the last.
+    pub min_gain: f64,
+}
+
+/// Fits constants; owns the memory that it needs.
+#[derive(Clone, Debug, Default)]
+pub struct Fitter {
+    pub evaluator: Evaluator,
+    derivative: Differentiated,
+    tape: Tape,
+    current: NormalEquations,
+    trial: NormalEquations,
+    constants: Vec<f32>,
+    trial_constants: Vec<f32>,
+    factor: Vec<f64>,
+    step: Vec<f64>,
+}
+
+/// Damping beyond which no step is tried any more.
+const MAX_DAMPING: f64 = 1e8;
+
+impl Fitter {
+    /// Fits every constant of effective code to the samples by least squares, starting from
+    /// the values that it has, and gives the weighted sum of squared errors over all outputs. The
+    /// result is not finite, and the constants are as they were, if the program's outputs or
+    /// derivatives are not finite on the samples.
+    ///
+    /// # Panics
+    /// If the samples have other numbers of inputs or outputs than the program.
+    pub fn fit(&mut self, program: &mut Draft, samples: &Samples, stop: Stop) -> f64 {
+        self.derivative.assign(program);
+        self.tape.prepare(&self.derivative.program);
+        let jacobian = &self.derivative.jacobian;
+        let evaluator = &mut self.evaluator;
+        evaluator.normal_equations(&self.tape, jacobian, samples, &mut self.current);
+        if program.consts.is_empty() || !is_finite(&self.current) {
+            return self.current.sum_of_squares;
+        }
+        self.constants.clone_from(&self.derivative.program.consts);
+        let mut damping = 1e-3;
+        for _ in 0..stop.max_steps {
+            let Some(gain) = self.step(program.consts.len(), samples, &mut damping) else {
+                break;
+            };
+            if gain < stop.min_gain {
+                break;
+            }
+        }
+        let fitted = &self.constants[..program.consts.len()];
+        program.consts.copy_from_slice(fitted);
+        self.current.sum_of_squares
+    }
+
+    /// One accepted step, with as much damping as it takes; the share by which it lowers
+    /// the sum of squares, or nothing where no step does.
+    fn step(&mut self, parameters: usize, samples: &Samples, damping: &mut f64) -> Option<f64> {
+        while *damping < MAX_DAMPING {
+            if self.solve(parameters, *damping) && self.move_constants(parameters) {
+                self.tape.set_constants(&self.trial_constants);
+                let jacobian = &self.derivative.jacobian;
+                self.evaluator.normal_equations(&self.tape, jacobian, samples, &mut self.trial);
+                let (old, new) = (self.current.sum_of_squares, self.trial.sum_of_squares);
+                if is_finite(&self.trial) && new < old {
+                    std::mem::swap(&mut self.current, &mut self.trial);
+                    std::mem::swap(&mut self.constants, &mut self.trial_constants);
+                    *damping = (*damping * 0.1).max(1e-9);
+                    return Some((old - new) / old);
+                }
+            }
+            *damping *= 8.0;
+        }
+        None
+    }
+
+    /// Whether the constants change at all, and stay finite, by the step that was solved for.
+    fn move_constants(&mut self, parameters: usize) -> bool {
+        self.trial_constants.clone_from(&self.constants);
+        for (constant, step) in self.trial_constants.iter_mut().zip(&self.step[..parameters]) {
+            *constant = (f64::from(*constant) - step) as f32;
+        }
+        let finite = self.trial_constants.iter().all(|c| c.is_finite());
+        finite && self.trial_constants != self.constants
+    }
+
+    /// Solves `(JᵀJ + damping · diag JᵀJ) step = Jᵀr` by Cholesky's factorisation; false where the matrix is
+    /// not positive definite in `f64`.
+    fn solve(&mut self, n: usize, damping: f64) -> bool {
+        let matrix = &self.current.matrix;
+        let largest = (0..n).map(|i| matrix[i * n + i]).fold(0.0, f64::max);
+        self.factor.clear();
+        self.factor.resize(n * n, 0.0);
+        let l = &mut self.factor;
+        for i in 0..n {
+            for j in 0..=i {
+                let mut sum = matrix[i * n + j];
+                if i == j {
+                    // A constant without influence must not move, nor spoil the others.
+                    sum += damping * sum.max(largest * 1e-12);
+                }
+                for k in 0..j {
+                    sum -= l[i * n + k] * l[j * n + k];
+                }
+                if i == j {
+                    if sum.is_nan() || sum <= 0.0 {
+                        return false;
+                    }
+                    l[i * n + i] = sum.sqrt();
+                } else {
+                    l[i * n + j] = sum / l[j * n + j];
+                }
+            }
+        }
+        self.step.clone_from(&self.current.gradient);
+        let x = &mut self.step;
+        for i in 0..n {
+            for k in 0..i {
+                x[i] -= l[i * n + k] * x[k];
+            }
+            x[i] /= l[i * n + i];
+        }
+        for i in (0..n).rev() {
+            for k in i + 1..n {
+                x[i] -= l[k * n + i] * x[k];
+            }
+            x[i] /= l[i * n + i];
+        }
+        true
+    }
+}
+
+fn is_finite(equations: &NormalEquations) -> bool {
+    equations.sum_of_squares.is_finite()
+        && equations.gradient.iter().all(|g| g.is_finite())
+        && equations.matrix.iter().all(|m| m.is_finite())
+}
