@@ -1,1 +1,1 @@
-//! targets
+//! Ground truths to search formulas for.
