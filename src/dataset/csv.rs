@@ -20,6 +20,8 @@ pub enum InputColumns {
 struct Table {
     names: Vec<String>,
     columns: Vec<Vec<f32>>,
+    /// Where each row is in the file.
+    lines: Vec<usize>,
 }
 
 /// Imports a table: comma-separated numbers in UTF-8 under one line of column
@@ -43,9 +45,11 @@ struct Table {
 pub fn import_csv(path: &Path, inputs: &InputColumns) -> Result<Dataset, Error> {
     let text = read_text(path)?;
     let mut table = parse(path, &text)?;
-    let weights = take_weights(&mut table, inputs);
+    let weights = take_weights(path, &mut table, inputs)?;
     let order = column_order(path, &table.names, inputs)?;
-    let Table { names, mut columns } = table;
+    let Table {
+        names, mut columns, ..
+    } = table;
     let columns: Vec<Vec<f32>> = order
         .columns
         .iter()
@@ -108,6 +112,7 @@ fn parse(path: &Path, text: &str) -> Result<Table, Error> {
     };
     let names = parse_header(path, header_line, header)?;
     let mut columns = vec![Vec::new(); names.len()];
+    let mut row_lines = Vec::new();
     for (line, row) in lines {
         let found = row.split(',').count();
         if found != names.len() {
@@ -119,14 +124,19 @@ fn parse(path: &Path, text: &str) -> Result<Table, Error> {
                 expected,
             });
         }
+        row_lines.push(line);
         for ((text, name), column) in row.split(',').map(unquoted).zip(&names).zip(&mut columns) {
             column.push(parse_cell(path, line, name, text)?);
         }
     }
-    if columns.iter().all(Vec::is_empty) {
+    if row_lines.is_empty() {
         return Err(Error::HeaderOnly { path: path.into() });
     }
-    Ok(Table { names, columns })
+    Ok(Table {
+        names,
+        columns,
+        lines: row_lines,
+    })
 }
 
 fn parse_header(path: &Path, line: usize, header: &str) -> Result<Vec<String>, Error> {
@@ -202,14 +212,25 @@ fn parse_cell(path: &Path, line: usize, column: &str, text: &str) -> Result<f32,
     })
 }
 
-fn take_weights(table: &mut Table, inputs: &InputColumns) -> Vec<f32> {
+fn take_weights(path: &Path, table: &mut Table, inputs: &InputColumns) -> Result<Vec<f32>, Error> {
     let named = matches!(inputs, InputColumns::Names(names) if names.iter().any(|n| n == WEIGHT));
-    match table.names.iter().position(|name| name == WEIGHT) {
-        Some(index) if !named => {
-            table.names.remove(index);
-            table.columns.remove(index)
-        }
-        _ => Vec::new(),
+    let weight = table.names.iter().position(|name| name == WEIGHT);
+    let Some(index) = weight.filter(|_| !named) else {
+        return Ok(Vec::new());
+    };
+    table.names.remove(index);
+    let weights = table.columns.remove(index);
+    match weights
+        .iter()
+        .zip(&table.lines)
+        .find(|(weight, _)| **weight < 0.0)
+    {
+        None => Ok(weights),
+        Some((&value, &line)) => Err(Error::NegativeWeight {
+            path: path.into(),
+            line,
+            value,
+        }),
     }
 }
 

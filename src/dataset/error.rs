@@ -148,6 +148,12 @@ pub enum Error {
         column: String,
         text: String,
     },
+    #[error("{path}, line {line}, column `weight`: {value} is negative; weights must not be (name the column among the inputs if it is none)", path = path.display())]
+    NegativeWeight {
+        path: PathBuf,
+        line: usize,
+        value: f32,
+    },
     #[error("{path}: {asked} input columns were asked for, but there are only {columns} columns and at least one must be left as an output; ask for fewer", path = path.display())]
     TooManyInputs {
         path: PathBuf,

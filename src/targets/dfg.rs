@@ -77,8 +77,8 @@ pub struct Dfg {
     pub error: f64,
 }
 
-/// The terms at `n_dot_v` in (0, 1] and `alpha` in [0, 1], accurate to better
-/// than 1e-9; at alpha = 0 their limit. `rule` is any, made once.
+/// The terms at `n_dot_v` in (0, 1] and `alpha` in [0, 1], accurate to about
+/// 1e-9; at alpha = 0 their limit. Make `rule` once for many points.
 pub fn integrate(rule: &TanhSinh, n_dot_v: f64, alpha: f64, masking: Masking) -> Dfg {
     if alpha == 0.0 {
         let bias = fresnel::schlick_weight(n_dot_v);

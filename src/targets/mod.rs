@@ -51,7 +51,8 @@ pub fn targets() -> &'static [Target] {
 }
 
 /// Makes the dataset a recipe describes, on all of rayon's threads, the same
-/// at any number of them. `progress` is called with the work units done so far
+/// at any number of them. It is named after its target; give it another name
+/// before saving it under another one. `progress` is called with the work units done so far
 /// and their total, from any thread.
 ///
 /// # Errors

@@ -53,8 +53,11 @@ fn imports_weights() {
     let as_input = import_text(text, &named(&["weight"])).unwrap();
     assert_eq!(names(&as_input.outputs), ["x", "y"]);
     assert!(as_input.search.weights.is_empty());
-    let negative = import_text("x,weight,y\n1,-1,3\n", &InputColumns::Count(1));
-    assert!(matches!(negative, Err(Error::BadWeight { .. })));
+    let negative = import_text("x,weight,y\n1,1,3\n\n1,-1,3\n", &InputColumns::Count(1));
+    assert!(matches!(
+        negative,
+        Err(Error::NegativeWeight { line: 4, .. })
+    ));
 }
 
 #[test]
