@@ -1,9 +1,16 @@
 //! Symbolic regression for shaders.
 
-pub mod dataset;
-pub mod eval;
-pub mod fit;
+pub mod suggest;
+
 pub mod num;
 pub mod op;
 pub mod program;
-pub mod suggest;
+
+pub mod dataset;
+
+pub mod eval;
+pub mod fit;
+
+pub mod microfacet;
+pub mod quadrature;
+pub mod targets;

@@ -1,18 +1,41 @@
 //! "Did you mean": the known name nearest to an unknown one.
 
-/// The candidate most like `name`, if one is close enough to be worth naming.
+/// The candidate that a misspelt name was probably meant to be, if any is near: by edit distance
+/// (insertions, deletions, substitutions and swaps of neighbours, ignoring case) up to a third
+/// of the longer name, or else one that `name` abbreviates (`nv` for `n_dot_v`). Ties go to the
+/// first.
 ///
 /// ```
-/// assert_eq!(lgp::suggest::nearest("rougness", ["n_dot_v", "roughness"]), Some("roughness"));
-/// assert_eq!(lgp::suggest::nearest("zzz", ["n_dot_v", "roughness"]), None);
+/// use lgp::suggest::nearest;
+/// let columns = ["n_dot_v", "roughness", "scale", "bias"];
+/// assert_eq!(nearest("rougness", columns), Some("roughness"));
+/// assert_eq!(nearest("bais", columns), Some("bias"));
+/// assert_eq!(nearest("nv", columns), Some("n_dot_v"));
+/// assert_eq!(nearest("temperature", columns), None);
 /// ```
 pub fn nearest<'a>(name: &str, candidates: impl IntoIterator<Item = &'a str>) -> Option<&'a str> {
-    candidates
-        .into_iter()
-        .map(|candidate| (strsim::jaro_winkler(name, candidate), candidate))
-        .filter(|(likeness, _)| *likeness > 0.72)
-        .max_by(|a, b| a.0.total_cmp(&b.0))
-        .map(|(_, candidate)| candidate)
+    let name = name.to_lowercase();
+    let mut best: Option<(usize, &str)> = None;
+    let mut abbreviated = None;
+    for candidate in candidates {
+        let letters = candidate.to_lowercase();
+        let distance = strsim::damerau_levenshtein(&name, &letters);
+        let longer = name.chars().count().max(letters.chars().count());
+        if distance <= longer.div_ceil(3) && best.is_none_or(|(least, _)| distance < least) {
+            best = Some((distance, candidate));
+        }
+        if abbreviated.is_none() && abbreviates(&name, &letters) {
+            abbreviated = Some(candidate);
+        }
+    }
+    best.map(|(_, candidate)| candidate).or(abbreviated)
+}
+
+fn abbreviates(short: &str, long: &str) -> bool {
+    let mut rest = long.chars();
+    short.chars().count() >= 2
+        && short.chars().next() == long.chars().next()
+        && short.chars().all(|c| rest.any(|d| d == c))
 }
 
 /// `"; did you mean `x`?"`, or nothing.

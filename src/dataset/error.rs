@@ -1,0 +1,95 @@
+use std::path::PathBuf;
+
+/// Why a dataset cannot be read, written or used. `path` is the file, or the
+/// dataset's name where there is none; `row` counts from 1 within its split,
+/// `line` from 1 within its file.
+#[derive(Debug, thiserror::Error)]
+pub enum Error {
+    #[error("{path}: no such file; check the path (`lgp list` shows the targets that `lgp generate` can make)", path = path.display())]
+    Missing { path: PathBuf },
+    #[error("{path}: cannot be {action}: {source}; check that the path is a file in a folder you have access to", path = path.display())]
+    Io { path: PathBuf, action: &'static str, source: std::io::Error },
+    #[error("{path}: the file is empty; generate or import it again", path = path.display())]
+    Empty { path: PathBuf },
+    #[error("{path}: not an lgp dataset (it does not begin with LGPDATA1); if it is a table, convert it with `lgp import`", path = path.display())]
+    Magic { path: PathBuf },
+    #[error("{path}: dataset format version {found}, but this program reads version {supported}; generate or import it again with this program", path = path.display())]
+    Version { path: PathBuf, found: u32, supported: u32 },
+    #[error("{path}: truncated: {found} bytes of {expected}; copy, generate or import it again", path = path.display())]
+    Truncated { path: PathBuf, expected: u64, found: u64 },
+    #[error("{path}: {extra} bytes too many at the end; copy, generate or import it again", path = path.display())]
+    Trailing { path: PathBuf, extra: u64 },
+    #[error("{path}: damaged: the checksum does not match the content; copy, generate or import it again", path = path.display())]
+    Checksum { path: PathBuf },
+    #[error("{path}: unusable header: {problem}; generate or import it again", path = path.display())]
+    Header { path: PathBuf, problem: String },
+
+    #[error("{path}: no input columns; name at least one", path = path.display())]
+    NoInputs { path: PathBuf },
+    #[error("{path}: no output columns are left; make fewer columns inputs", path = path.display())]
+    NoOutputs { path: PathBuf },
+    #[error("{path}: the {split} split has no rows; at least one is needed", path = path.display())]
+    NoRows { path: PathBuf, split: &'static str },
+    #[error("{path}{}: column name `{column}` is not an identifier (letters, digits and `_`, no digit first); rename it, for example to `{suggestion}`", at_line(*line), path = path.display())]
+    ColumnName { path: PathBuf, line: Option<usize>, column: String, suggestion: String },
+    #[error("{path}: column `{column}` occurs more than once; name each column once", path = path.display())]
+    DuplicateColumn { path: PathBuf, column: String },
+    #[error("{path}: column `{column}` has the domain [{low}, {high}]; it must be finite and in ascending order", path = path.display())]
+    Domain { path: PathBuf, column: String, low: f64, high: f64 },
+    #[error("{path}: the {split} split has {found} columns, but {expected} are named; generate or import it again", path = path.display())]
+    ColumnCount { path: PathBuf, split: &'static str, found: usize, expected: usize },
+    #[error("{path}: column `{column}` of the {split} split has {found} rows, but the first column has {expected}; all must be equally long", path = path.display())]
+    UnequalColumns {
+        path: PathBuf,
+        split: &'static str,
+        column: String,
+        found: usize,
+        expected: usize,
+    },
+    #[error("{path}: column `{column}`, row {row} of the {split} split is {value}; remove the row or replace the value by a finite one", path = path.display())]
+    NotFinite { path: PathBuf, split: &'static str, column: String, row: usize, value: f32 },
+    #[error("{path}: the weight of row {row} of the {split} split is {value}; weights must be finite and not negative", path = path.display())]
+    BadWeight { path: PathBuf, split: &'static str, row: usize, value: f32 },
+    #[error("{path}: all weights of the {split} split are zero; give at least one row a positive weight", path = path.display())]
+    ZeroWeights { path: PathBuf, split: &'static str },
+    #[error("{path}: a grid of {grid:?} points does not describe the {rows} rows of the {split} split; it needs one factor an input, with the rows as their product", path = path.display())]
+    Grid { path: PathBuf, split: &'static str, grid: Vec<usize>, rows: usize },
+
+    #[error("{path}: no column is called `{column}`{}; the columns are {available}", did_you_mean(suggestion), path = path.display())]
+    UnknownColumn { path: PathBuf, column: String, suggestion: Option<String>, available: String },
+    #[error("{path}: column `{column}` is asked for as an input and as an output; leave it out of one of them", path = path.display())]
+    InputIsOutput { path: PathBuf, column: String },
+
+    #[error("{path}: not a text file in UTF-8 (line {line}); save it as CSV in UTF-8", path = path.display())]
+    NotText { path: PathBuf, line: usize },
+    #[error("{path}, line {line}: the first line holds only numbers; put a line with the names of the columns above it, for example `n_dot_v,roughness,scale`", path = path.display())]
+    NoHeader { path: PathBuf, line: usize },
+    #[error("{path}, line {line}: columns are separated by {separator}; separate them by commas (and use a point for decimals)", path = path.display())]
+    Separator { path: PathBuf, line: usize, separator: &'static str },
+    #[error("{path}: a header but no rows below it; add at least one row of numbers", path = path.display())]
+    HeaderOnly { path: PathBuf },
+    #[error("{path}, line {line}: a row of length {found} under a header of {expected} columns; make them equally long", path = path.display())]
+    RaggedRow { path: PathBuf, line: usize, found: usize, expected: usize },
+    #[error("{path}, line {line}, column `{column}`: {}; write a number such as 0.25, or remove the row", cell(text), path = path.display())]
+    Cell { path: PathBuf, line: usize, column: String, text: String },
+    #[error("{path}, line {line}, column `{column}`: `{text}` is not finite; remove the row or write a finite number", path = path.display())]
+    CellNotFinite { path: PathBuf, line: usize, column: String, text: String },
+    #[error("{path}, line {line}, column `{column}`: `{text}` is too large for 32-bit floats (largest: 3.4e38); use a smaller unit", path = path.display())]
+    CellOverflow { path: PathBuf, line: usize, column: String, text: String },
+    #[error("{path}, line {line}, column `weight`: {value} is negative; weights must not be (name the column among the inputs if it is none)", path = path.display())]
+    NegativeWeight { path: PathBuf, line: usize, value: f32 },
+    #[error("{path}: {asked} input columns were asked for, but there are only {columns} columns and at least one must be left as an output; ask for fewer", path = path.display())]
+    TooManyInputs { path: PathBuf, asked: usize, columns: usize },
+}
+
+fn at_line(line: Option<usize>) -> String {
+    line.map(|line| format!(", line {line}")).unwrap_or_default()
+}
+
+fn did_you_mean(suggestion: &Option<String>) -> String {
+    suggestion.as_ref().map(|name| format!(" (did you mean `{name}`?)")).unwrap_or_default()
+}
+
+fn cell(text: &str) -> String {
+    if text.is_empty() { "the cell is empty".into() } else { format!("`{text}` is not a number") }
+}

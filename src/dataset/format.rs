@@ -1,0 +1,216 @@
+//! The `.bin` file: magic `LGPDATA1`, the header's length (u32, little-endian),
+//! the header in RON, the columns as little-endian f32 (search columns and
+//! weights, validation columns and weights), and the 32-byte blake3 checksum
+//! of everything before it.
+
+use super::{Column, Dataset, Error, Split, replace_file};
+use serde::{Deserialize, Serialize};
+use std::path::Path;
+
+const MAGIC: &[u8; 8] = b"LGPDATA1";
+const VERSION: u32 = 1;
+const CHECKSUM: usize = 32;
+const PREFIX: usize = MAGIC.len() + 4;
+
+#[derive(Serialize, Deserialize)]
+struct Header {
+    version: u32,
+    name: String,
+    recipe: String,
+    inputs: Vec<Column>,
+    outputs: Vec<Column>,
+    search: SplitHeader,
+    validation: SplitHeader,
+}
+
+#[derive(Serialize, Deserialize)]
+struct SplitHeader {
+    rows: u64,
+    weighted: bool,
+    grid: Vec<usize>,
+}
+
+#[derive(Deserialize)]
+struct VersionOnly {
+    version: u32,
+}
+
+impl Dataset {
+    /// Reads a `.bin` file.
+    ///
+    /// # Errors
+    /// A file that is missing, empty, not a dataset, of another version,
+    /// truncated, too long, damaged, or whose content [`Dataset::validate`]
+    /// refuses. Nothing is allocated on the word of an unverified header.
+    pub fn load(path: &Path) -> Result<Dataset, Error> {
+        let bytes = std::fs::read(path).map_err(|source| match source.kind() {
+            std::io::ErrorKind::NotFound => Error::Missing { path: path.into() },
+            _ => Error::Io { path: path.into(), action: "read", source },
+        })?;
+        let dataset = parse(path, &bytes)?;
+        dataset.validate_as(path)?;
+        Ok(dataset)
+    }
+
+    /// Writes a `.bin` file, replacing an old one as a whole.
+    ///
+    /// # Errors
+    /// A dataset that [`Dataset::validate`] refuses, or a file that cannot be
+    /// written.
+    pub fn save(&self, path: &Path) -> Result<(), Error> {
+        self.validate_as(path)?;
+        let bytes = self.to_bytes(path)?;
+        replace_file(path, &bytes).map_err(|source| Error::Io {
+            path: path.into(),
+            action: "written",
+            source,
+        })
+    }
+
+    /// First 16 hexadecimal digits of the checksum that [`Dataset::save`] ends
+    /// the file with: equal for equal names, recipes, columns and rows.
+    pub fn hash(&self) -> String {
+        let content = self.content(&self.header());
+        blake3::hash(&content).to_hex().as_str()[..16].to_owned()
+    }
+
+    /// The bytes of the `.bin` file.
+    fn to_bytes(&self, path: &Path) -> Result<Vec<u8>, Error> {
+        let header = self.header();
+        if u32::try_from(header.len()).is_err() {
+            let problem = "names and recipe are longer than 4 GiB".into();
+            return Err(Error::Header { path: path.into(), problem });
+        }
+        let mut bytes = self.content(&header);
+        let checksum = blake3::hash(&bytes);
+        bytes.extend_from_slice(checksum.as_bytes());
+        Ok(bytes)
+    }
+
+    fn header(&self) -> String {
+        let split = |split: &Split| SplitHeader {
+            rows: split.rows() as u64,
+            weighted: !split.weights.is_empty(),
+            grid: split.grid.clone(),
+        };
+        let header = Header {
+            version: VERSION,
+            name: self.name.clone(),
+            recipe: self.recipe.clone(),
+            inputs: self.inputs.clone(),
+            outputs: self.outputs.clone(),
+            search: split(&self.search),
+            validation: split(&self.validation),
+        };
+        // Strings, integers and floats always have a RON form.
+        ron::to_string(&header).unwrap_or_default()
+    }
+
+    fn content(&self, header: &str) -> Vec<u8> {
+        let mut bytes = MAGIC.to_vec();
+        bytes.extend_from_slice(&(header.len() as u32).to_le_bytes());
+        bytes.extend_from_slice(header.as_bytes());
+        for split in [&self.search, &self.validation] {
+            for column in split.columns.iter().chain([&split.weights]) {
+                bytes.extend(column.iter().flat_map(|value| value.to_le_bytes()));
+            }
+        }
+        bytes
+    }
+}
+
+fn parse(path: &Path, bytes: &[u8]) -> Result<Dataset, Error> {
+    let found = bytes.len() as u64;
+    if bytes.is_empty() {
+        return Err(Error::Empty { path: path.into() });
+    }
+    let start = &bytes[..bytes.len().min(MAGIC.len())];
+    if !MAGIC.starts_with(start) {
+        return Err(Error::Magic { path: path.into() });
+    }
+    let length = bytes.get(MAGIC.len()..PREFIX).and_then(|b| <[u8; 4]>::try_from(b).ok());
+    let Some(length) = length.map(u32::from_le_bytes) else {
+        let expected = (PREFIX + CHECKSUM) as u64;
+        return Err(Error::Truncated { path: path.into(), expected, found });
+    };
+    let body = PREFIX as u64 + u64::from(length);
+    let least = body + CHECKSUM as u64;
+    if found < least {
+        return Err(Error::Truncated { path: path.into(), expected: least, found });
+    }
+    let (content, checksum) = bytes.split_at(bytes.len() - CHECKSUM);
+    let intact = blake3::hash(content).as_bytes() == checksum;
+    let body = PREFIX + length as usize;
+    let header = read_header(path, &content[PREFIX..body], intact)?;
+    check_length(path, &header, body, found, intact)?;
+    if !intact {
+        return Err(Error::Checksum { path: path.into() });
+    }
+    Ok(assemble(header, &content[body..]))
+}
+
+fn read_header(path: &Path, bytes: &[u8], intact: bool) -> Result<Header, Error> {
+    // A header that cannot be read in a damaged file is only a symptom.
+    let unusable = |problem: String| match intact {
+        true => Error::Header { path: path.into(), problem },
+        false => Error::Checksum { path: path.into() },
+    };
+    let text = std::str::from_utf8(bytes).map_err(|error| unusable(error.to_string()))?;
+    let VersionOnly { version } =
+        ron::from_str(text).map_err(|error| unusable(error.to_string()))?;
+    if version != VERSION {
+        return Err(Error::Version { path: path.into(), found: version, supported: VERSION });
+    }
+    ron::from_str(text).map_err(|error| unusable(error.to_string()))
+}
+
+fn check_length(
+    path: &Path,
+    header: &Header,
+    body: usize,
+    found: u64,
+    intact: bool,
+) -> Result<(), Error> {
+    let columns = (header.inputs.len() + header.outputs.len()) as u128;
+    let values =
+        |split: &SplitHeader| u128::from(split.rows) * (columns + u128::from(split.weighted));
+    let values = values(&header.search) + values(&header.validation);
+    let expected = (body + CHECKSUM) as u128 + 4 * values;
+    if expected == u128::from(found) {
+        return Ok(());
+    }
+    if intact {
+        let problem = format!("it promises {expected} bytes, but the file has {found}");
+        return Err(Error::Header { path: path.into(), problem });
+    }
+    match u64::try_from(expected) {
+        Ok(expected) if expected < found => {
+            Err(Error::Trailing { path: path.into(), extra: found - expected })
+        }
+        Ok(expected) => Err(Error::Truncated { path: path.into(), expected, found }),
+        Err(_) => Err(Error::Checksum { path: path.into() }),
+    }
+}
+
+/// Cuts the body, whose length has been checked, into columns.
+fn assemble(header: Header, body: &[u8]) -> Dataset {
+    let columns = header.inputs.len() + header.outputs.len();
+    let mut words = body.as_chunks::<4>().0.iter().map(|&word| f32::from_le_bytes(word));
+    let mut split = |split: SplitHeader| {
+        let rows = split.rows as usize;
+        let mut column = || words.by_ref().take(rows).collect::<Vec<f32>>();
+        Split {
+            columns: (0..columns).map(|_| column()).collect(),
+            weights: if split.weighted { column() } else { Vec::new() },
+            grid: split.grid,
+        }
+    };
+    Dataset {
+        search: split(header.search),
+        validation: split(header.validation),
+        name: header.name,
+        recipe: header.recipe,
+        inputs: header.inputs,
+        outputs: header.outputs,
+    }
+}

@@ -1,0 +1,245 @@
+//! Tables of samples: what a search is fitted to and judged on.
+//!
+//! A [`Dataset`] names its input and output columns and holds two disjoint
+//! sets of rows, the search split and the validation split. It is stored in a
+//! checksummed binary file (`.bin`, see [`Dataset::save`]) and can be made
+//! from a CSV table ([`import_csv`]).
+
+mod csv;
+mod error;
+mod file;
+mod format;
+mod select;
+
+pub use csv::{InputColumns, import_csv};
+pub use error::Error;
+pub use file::replace_file;
+
+use serde::{Deserialize, Serialize};
+use std::collections::HashSet;
+use std::path::{Path, PathBuf};
+
+/// One column of a dataset.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Column {
+    /// An identifier, `[A-Za-z_][A-Za-z0-9_]*`. It may be called like an
+    /// operation or a keyword of some language.
+    pub name: String,
+    /// `""` or `"1"` for dimensionless.
+    pub unit: String,
+    /// Smallest and largest value that is meaningful (for an output: that occurs).
+    pub domain: [f64; 2],
+}
+
+/// Rows of samples, column-major: inputs first then outputs, each of
+/// [`rows`](Split::rows) values.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Split {
+    pub columns: Vec<Vec<f32>>,
+    /// One weight a row; empty means that all are one.
+    pub weights: Vec<f32>,
+    /// Points along each input axis, the first input varying slowest, if the
+    /// rows are a full regular grid; empty otherwise.
+    pub grid: Vec<usize>,
+}
+
+impl Split {
+    /// Number of rows (the length of the first column).
+    pub fn rows(&self) -> usize {
+        self.columns.first().map_or(0, Vec::len)
+    }
+
+    /// Weight of a row: one where the split is unweighted.
+    pub fn weight(&self, row: usize) -> f32 {
+        self.weights.get(row).copied().unwrap_or(1.0)
+    }
+}
+
+/// Named samples of a function, in two disjoint splits.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Dataset {
+    pub name: String,
+    /// Where the rows come from: a recipe in RON, or `imported from file.csv`.
+    pub recipe: String,
+    pub inputs: Vec<Column>,
+    pub outputs: Vec<Column>,
+    /// What a search is fitted to.
+    pub search: Split,
+    /// What its results are judged on.
+    pub validation: Split,
+}
+
+impl Dataset {
+    /// Checks what every consumer relies on: at least one input, one output
+    /// and one row a split; names that are unique identifiers; ordered finite
+    /// domains; columns of equal length holding finite values; weights finite,
+    /// not negative, and not all zero; a grid that multiplies to the rows.
+    ///
+    /// # Errors
+    /// The first violation found. Its `path` is the dataset's name.
+    pub fn validate(&self) -> Result<(), Error> {
+        self.validate_as(Path::new(&self.name))
+    }
+
+    /// The same, for the file at `path`.
+    fn validate_as(&self, path: &Path) -> Result<(), Error> {
+        if self.inputs.is_empty() {
+            return Err(Error::NoInputs { path: path.into() });
+        }
+        if self.outputs.is_empty() {
+            return Err(Error::NoOutputs { path: path.into() });
+        }
+        self.validate_columns(path)?;
+        self.validate_split(path, "search", &self.search)?;
+        self.validate_split(path, "validation", &self.validation)
+    }
+
+    fn origin(&self) -> PathBuf {
+        PathBuf::from(&self.name)
+    }
+
+    fn columns(&self) -> impl Iterator<Item = &Column> {
+        self.inputs.iter().chain(&self.outputs)
+    }
+
+    fn validate_columns(&self, path: &Path) -> Result<(), Error> {
+        let mut seen = HashSet::new();
+        for column in self.columns() {
+            check_identifier(path, None, &column.name)?;
+            if !seen.insert(column.name.as_str()) {
+                return Err(Error::DuplicateColumn {
+                    path: path.into(),
+                    column: column.name.clone(),
+                });
+            }
+            let [low, high] = column.domain;
+            if !(low.is_finite() && high.is_finite() && low <= high) {
+                return Err(Error::Domain {
+                    path: path.into(),
+                    column: column.name.clone(),
+                    low,
+                    high,
+                });
+            }
+        }
+        Ok(())
+    }
+
+    fn validate_split(&self, path: &Path, split: &'static str, rows: &Split) -> Result<(), Error> {
+        let expected = self.inputs.len() + self.outputs.len();
+        let found = rows.columns.len();
+        if found != expected {
+            return Err(Error::ColumnCount { path: path.into(), split, found, expected });
+        }
+        if rows.rows() == 0 {
+            return Err(Error::NoRows { path: path.into(), split });
+        }
+        for (column, values) in self.columns().zip(&rows.columns) {
+            validate_values(path, split, &column.name, values, rows.rows())?;
+        }
+        validate_weights(path, split, rows)?;
+        let points = rows.grid.iter().try_fold(1usize, |product, &n| product.checked_mul(n));
+        let fits = rows.grid.len() == self.inputs.len() && points == Some(rows.rows());
+        if !rows.grid.is_empty() && !fits {
+            return Err(Error::Grid {
+                path: path.into(),
+                split,
+                grid: rows.grid.clone(),
+                rows: rows.rows(),
+            });
+        }
+        Ok(())
+    }
+}
+
+fn validate_values(
+    path: &Path,
+    split: &'static str,
+    column: &str,
+    values: &[f32],
+    expected: usize,
+) -> Result<(), Error> {
+    if values.len() != expected {
+        return Err(Error::UnequalColumns {
+            path: path.into(),
+            split,
+            column: column.into(),
+            found: values.len(),
+            expected,
+        });
+    }
+    match values.iter().position(|value| !value.is_finite()) {
+        None => Ok(()),
+        Some(row) => Err(Error::NotFinite {
+            path: path.into(),
+            split,
+            column: column.into(),
+            row: row + 1,
+            value: values[row],
+        }),
+    }
+}
+
+fn validate_weights(path: &Path, split: &'static str, rows: &Split) -> Result<(), Error> {
+    if rows.weights.is_empty() {
+        return Ok(());
+    }
+    if rows.weights.len() != rows.rows() {
+        return Err(Error::UnequalColumns {
+            path: path.into(),
+            split,
+            column: "weight".into(),
+            found: rows.weights.len(),
+            expected: rows.rows(),
+        });
+    }
+    if let Some(row) = rows.weights.iter().position(|w| !(w.is_finite() && *w >= 0.0)) {
+        let value = rows.weights[row];
+        return Err(Error::BadWeight { path: path.into(), split, row: row + 1, value });
+    }
+    if rows.weights.iter().all(|&w| w == 0.0) {
+        return Err(Error::ZeroWeights { path: path.into(), split });
+    }
+    Ok(())
+}
+
+fn check_identifier(path: &Path, line: Option<usize>, name: &str) -> Result<(), Error> {
+    let mut chars = name.chars();
+    let starts = chars.next().is_some_and(|c| c.is_ascii_alphabetic() || c == '_');
+    if starts && chars.all(|c| c.is_ascii_alphanumeric() || c == '_') {
+        return Ok(());
+    }
+    Err(Error::ColumnName {
+        path: path.into(),
+        line,
+        column: name.into(),
+        suggestion: repaired(name),
+    })
+}
+
+/// The identifier nearest to a name that is none: `n·v (1)` becomes `n_v_1`.
+fn repaired(name: &str) -> String {
+    let words: Vec<&str> =
+        name.split(|c: char| !c.is_ascii_alphanumeric()).filter(|word| !word.is_empty()).collect();
+    let joined = words.join("_");
+    match joined.chars().next() {
+        None => "value".into(),
+        Some(first) if first.is_ascii_digit() => format!("_{joined}"),
+        Some(_) => joined,
+    }
+}
+
+/// Smallest and largest of finite values; `[0, 0]` of none.
+fn range(values: impl IntoIterator<Item = f32>) -> [f64; 2] {
+    let [low, high] = values
+        .into_iter()
+        .map(f64::from)
+        .fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], v| [low.min(v), high.max(v)]);
+    if low <= high { [low, high] } else { [0.0, 0.0] }
+}
+
+/// Domain of column `index`: the range of its values in both splits.
+pub(crate) fn domain_of(search: &Split, validation: &Split, index: usize) -> [f64; 2] {
+    let column = |split: &Split| split.columns.get(index).cloned().unwrap_or_default();
+    range(column(search).into_iter().chain(column(validation)))
+}

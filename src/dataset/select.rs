@@ -1,0 +1,90 @@
+use super::{Column, Dataset, Error, Split};
+use crate::suggest::nearest;
+
+impl Dataset {
+    /// A view with only some inputs and outputs, in the order asked for. An
+    /// output column may be asked for as an input. Without `inputs`: all the
+    /// dataset's inputs, never its other outputs. Without `outputs`: all its
+    /// outputs but those asked for as inputs. The rows stay the same; a split
+    /// stays a grid only if the inputs do.
+    ///
+    /// # Errors
+    /// An unknown name (with a suggestion), a name given twice, a column that
+    /// is both input and output, or nothing left to be an input or output.
+    pub fn select(
+        &self,
+        inputs: Option<&[String]>,
+        outputs: Option<&[String]>,
+    ) -> Result<Dataset, Error> {
+        let input_indices = match inputs {
+            Some(names) => self.indices(names)?,
+            None => (0..self.inputs.len()).collect(),
+        };
+        let output_indices = match outputs {
+            Some(names) => self.indices(names)?,
+            None => (self.inputs.len()..self.inputs.len() + self.outputs.len())
+                .filter(|index| !input_indices.contains(index))
+                .collect(),
+        };
+        if let Some(&index) = output_indices.iter().find(|i| input_indices.contains(i)) {
+            let column = self.column(index).map(|c| c.name.clone()).unwrap_or_default();
+            return Err(Error::InputIsOutput { path: self.origin(), column });
+        }
+        self.with_columns(&input_indices, &output_indices)
+    }
+
+    fn with_columns(&self, inputs: &[usize], outputs: &[usize]) -> Result<Dataset, Error> {
+        let same_inputs = inputs.iter().copied().eq(0..self.inputs.len());
+        let indices: Vec<usize> = inputs.iter().chain(outputs).copied().collect();
+        let named = |indices: &[usize]| -> Vec<Column> {
+            indices.iter().filter_map(|&index| self.column(index).cloned()).collect()
+        };
+        let selected = Dataset {
+            name: self.name.clone(),
+            recipe: self.recipe.clone(),
+            inputs: named(inputs),
+            outputs: named(outputs),
+            search: pick(&self.search, &indices, same_inputs),
+            validation: pick(&self.validation, &indices, same_inputs),
+        };
+        selected.validate()?;
+        Ok(selected)
+    }
+
+    fn column(&self, index: usize) -> Option<&Column> {
+        self.columns().nth(index)
+    }
+
+    fn indices(&self, names: &[String]) -> Result<Vec<usize>, Error> {
+        names.iter().map(|name| self.index_of(name)).collect()
+    }
+
+    fn index_of(&self, name: &str) -> Result<usize, Error> {
+        self.columns().position(|column| column.name == name).ok_or_else(|| {
+            let names = self.columns().map(|column| column.name.as_str());
+            unknown_column(self.origin(), name, names)
+        })
+    }
+}
+
+pub(super) fn unknown_column<'a>(
+    path: std::path::PathBuf,
+    name: &str,
+    available: impl Iterator<Item = &'a str>,
+) -> Error {
+    let available: Vec<&str> = available.collect();
+    Error::UnknownColumn {
+        path,
+        column: name.into(),
+        suggestion: nearest(name, available.iter().copied()).map(Into::into),
+        available: available.join(", "),
+    }
+}
+
+fn pick(split: &Split, indices: &[usize], same_inputs: bool) -> Split {
+    Split {
+        columns: indices.iter().filter_map(|&index| split.columns.get(index).cloned()).collect(),
+        weights: split.weights.clone(),
+        grid: if same_inputs { split.grid.clone() } else { Vec::new() },
+    }
+}

@@ -1,0 +1,145 @@
+//! The isotropic GGX (Trowbridge–Reitz) distribution with Smith's masking and
+//! shadowing.
+//!
+//! Sources: Walter, Marschner, Li, Torrance, "Microfacet Models for Refraction
+//! through Rough Surfaces", 2007 (D: eq. 33, G1: eq. 34); Heitz,
+//! "Understanding the Masking-Shadowing Function in Microfacet-Based BRDFs",
+//! 2014 (Λ: eq. 72, separable G2: eq. 98, height-correlated G2: eq. 99).
+
+use std::f64::consts::PI;
+
+/// Density of microfacet normals per unit solid angle, in 1/sr, such that
+/// `∫ D (n·h) dω = 1`. `n_dot_h` in [0, 1], `alpha` in (0, 1].
+pub fn distribution(n_dot_h: f64, alpha: f64) -> f64 {
+    let alpha_squared = alpha * alpha;
+    // The usual n·h²(α² - 1) + 1 cancels near n·h = 1, where the lobe is.
+    let t = alpha_squared * n_dot_h * n_dot_h + (1.0 - n_dot_h) * (1.0 + n_dot_h);
+    alpha_squared / (PI * t * t)
+}
+
+/// Smith's Λ, invisible over visible projected area of the microsurface seen
+/// from a direction at `cosine` from the normal, in (0, 1]: +∞ at 0.
+/// `alpha` in [0, 1].
+pub fn lambda(cosine: f64, alpha: f64) -> f64 {
+    // (sqrt(1 + α² tan²) - 1) / 2, rationalised: that difference cancels for
+    // small α tan.
+    let sine_squared = (1.0 - cosine) * (1.0 + cosine);
+    let root = projected(cosine, alpha);
+    alpha * alpha * sine_squared / (2.0 * cosine * (root + cosine))
+}
+
+/// Masking: the visible fraction of the microfacets that face a direction at
+/// `cosine` in [0, 1] from the normal, `1 / (1 + Λ)`; 0 at the horizon.
+/// `alpha` in (0, 1].
+pub fn g1(cosine: f64, alpha: f64) -> f64 {
+    2.0 * cosine / (cosine + projected(cosine, alpha))
+}
+
+/// Masking and shadowing as if independent: `G1(v) G1(l)`.
+pub fn g2_separable(n_dot_v: f64, n_dot_l: f64, alpha: f64) -> f64 {
+    g1(n_dot_v, alpha) * g1(n_dot_l, alpha)
+}
+
+/// Masking and shadowing correlated through the height of the microfacet:
+/// `1 / (1 + Λ(v) + Λ(l))`; 0 if either cosine is 0. `alpha` in [0, 1].
+pub fn g2_correlated(n_dot_v: f64, n_dot_l: f64, alpha: f64) -> f64 {
+    let product = n_dot_v * n_dot_l;
+    if product <= 0.0 {
+        return 0.0;
+    }
+    let sum = n_dot_l * projected(n_dot_v, alpha) + n_dot_v * projected(n_dot_l, alpha);
+    2.0 * product / sum
+}
+
+/// `cosine * sqrt(1 + α² tan²)`, finite at the horizon.
+fn projected(cosine: f64, alpha: f64) -> f64 {
+    let sine_squared = (1.0 - cosine) * (1.0 + cosine);
+    (cosine * cosine + alpha * alpha * sine_squared).sqrt()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::quadrature::TanhSinh;
+
+    const ALPHAS: [f64; 6] = [1e-6, 1e-3, 0.03, 0.25, 0.7, 1.0];
+    const COSINES: [f64; 6] = [1e-5, 0.01, 0.3, 0.71, 0.999, 1.0];
+
+    #[test]
+    fn distribution_is_normalised() {
+        let rule = TanhSinh::new();
+        for alpha in ALPHAS {
+            // 2π ∫ D cosθ sinθ dθ with tanθ = α t, which spreads the lobe.
+            let integrand = |tangent: f64| {
+                let cosine = 1.0 / (1.0 + (alpha * tangent).powi(2)).sqrt();
+                2.0 * PI * distribution(cosine, alpha) * cosine.powi(4) * alpha * alpha * tangent
+            };
+            let near = rule.integrate(0.0, 1.0, 1e-10, |p| integrand(p.x)).value;
+            let far = rule.integrate(0.0, 1.0, 1e-10, |p| integrand(1.0 / p.x) / (p.x * p.x));
+            let total = near + far.value;
+            // One ulp of the cosine is 1e-16 of α²/2.
+            let tolerance = 1e-9 + 1e-15 / (alpha * alpha);
+            assert!((total - 1.0).abs() < tolerance, "alpha = {alpha}: {total}");
+        }
+    }
+
+    #[test]
+    fn distribution_peaks_at_its_known_height() {
+        for alpha in ALPHAS {
+            let expected = 1.0 / (PI * alpha * alpha);
+            assert!((distribution(1.0, alpha) / expected - 1.0).abs() < 1e-15);
+        }
+    }
+
+    #[test]
+    fn masking_agrees_with_lambda() {
+        for alpha in ALPHAS {
+            for v in COSINES {
+                assert!((g1(v, alpha) * (1.0 + lambda(v, alpha)) - 1.0).abs() < 1e-14);
+                for l in COSINES {
+                    let sum = 1.0 + lambda(v, alpha) + lambda(l, alpha);
+                    assert!((g2_correlated(v, l, alpha) * sum - 1.0).abs() < 1e-14);
+                    assert_eq!(g2_correlated(v, l, alpha), g2_correlated(l, v, alpha));
+                    assert!(g2_separable(v, l, alpha) <= g2_correlated(v, l, alpha) + 1e-15);
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn lambda_does_not_cancel() {
+        // α² tan² / 4 to first order, where the textbook form gives 0.
+        let tangent_squared = (1.0 - 0.25) / 0.25;
+        let expected = 1e-18 * tangent_squared / 4.0;
+        assert!((lambda(0.5, 1e-9) / expected - 1.0).abs() < 1e-14);
+        assert_eq!(lambda(1.0, 0.5), 0.0);
+        assert_eq!(lambda(0.0, 0.5), f64::INFINITY);
+    }
+
+    #[test]
+    fn limits() {
+        assert_eq!(g2_correlated(0.0, 0.0, 0.5), 0.0);
+        assert_eq!(g2_correlated(0.3, 0.6, 0.0), 1.0);
+        assert_eq!(g1(0.0, 0.5), 0.0);
+    }
+
+    #[test]
+    fn microfacets_visible_add_up_to_the_projected_area() {
+        // ∫ G1(v) <v·h> D dω = n·v (Heitz 2014, eq. 14).
+        let rule = TanhSinh::new();
+        let (n_dot_v, alpha): (f64, f64) = (0.4, 0.5);
+        let sin_v = (1.0 - n_dot_v * n_dot_v).sqrt();
+        let ring = |cos_h: f64| {
+            let sin_h = ((1.0 - cos_h) * (1.0 + cos_h)).sqrt();
+            let middle = n_dot_v * cos_h;
+            let horizon = (-middle / (sin_v * sin_h)).clamp(-1.0, 1.0).acos();
+            let v_dot_h = middle * horizon + sin_v * sin_h * horizon.sin();
+            2.0 * v_dot_h * distribution(cos_h, alpha)
+        };
+        // Rings below sin_v are cut by the horizon of v.
+        let below = rule.integrate(0.0, sin_v, 1e-11, |p| ring(p.x)).value;
+        let above = rule.integrate(sin_v, 1.0, 1e-11, |p| ring(p.x)).value;
+        let visible = g1(n_dot_v, alpha) * (below + above);
+        assert!((visible - n_dot_v).abs() < 1e-9, "{visible}");
+    }
+}

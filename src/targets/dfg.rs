@@ -1,0 +1,291 @@
+//! The split-integral DFG terms of a GGX specular lobe, which image-based
+//! lighting looks up or approximates: directional albedo =
+//! `f0 * scale + bias`.
+//!
+//! Definition (Karis, "Real Shading in Unreal Engine 4", 2013): with normals
+//! drawn from the distribution, `W = G2 (v·h) / ((n·h) (n·v))`, and the mean
+//! over the samples of `(1 - (1 - v·h)^5) W` is `scale`, that of
+//! `(1 - v·h)^5 W` is `bias`.
+//!
+//! Method: for normals at θ from n drawn with u = t²/(1 + t²), t = tan θ / α,
+//! the light is above the horizon for azimuths |φ| < φmax(θ). φmax is π up to
+//! θ = (π/2 - θv) / 2 and falls to 0 at (π/2 + θv) / 2. The double-exponential
+//! rule takes φ from 0 to φmax, and u over each of the two ranges: whatever is
+//! stiff (a narrow lobe, grazing light) lies at an end of one of them. u is
+//! carried with its complement, which keeps the far tail of a narrow lobe.
+
+use super::grid::{area_weights, cell_centres, nodes_between};
+use super::{Choices, Error, Parameter, Recipe, Target};
+use crate::dataset::{Column, Dataset, Split, domain_of};
+use crate::microfacet::{fresnel, ggx};
+use crate::quadrature::{Abscissa, TanhSinh};
+use rayon::prelude::*;
+use std::f64::consts::{FRAC_PI_2, PI};
+use std::sync::atomic::{AtomicUsize, Ordering};
+
+/// Largest estimated error that [`generate`] accepts.
+pub const ALLOWED_ERROR: f64 = 1e-7;
+const TOLERANCE: f64 = 1e-9;
+/// In place of n·v = 0, where W is undefined.
+const GRAZING: f32 = 0.001;
+const CORRELATED: &str = "correlated";
+const SEPARABLE: &str = "separable";
+const ROUGHNESS_SQUARED: &str = "roughness^2";
+const ROUGHNESS_FOURTH: &str = "roughness^4";
+
+pub(super) const TARGET: Target = Target {
+    name: "dfg",
+    description: "split-integral DFG terms of GGX specular: albedo = f0 * scale + bias",
+    columns: "n_dot_v, roughness → scale, bias",
+    parameters: &[
+        Parameter {
+            name: "masking",
+            description: "Smith's G2: height-correlated (engines today) or separable (older)",
+            default: CORRELATED,
+            choices: Choices::OneOf(&[CORRELATED, SEPARABLE]),
+        },
+        Parameter {
+            name: "alpha",
+            description: "width of the lobe, from perceptual roughness",
+            default: ROUGHNESS_SQUARED,
+            choices: Choices::OneOf(&[ROUGHNESS_SQUARED, ROUGHNESS_FOURTH]),
+        },
+        Parameter {
+            name: "points",
+            description: "points along each axis of the search grid",
+            default: "64",
+            choices: Choices::Count { least: 2, most: 1024 },
+        },
+    ],
+};
+
+/// How masking of v and shadowing of l combine.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Masking {
+    Correlated,
+    Separable,
+}
+
+/// The two terms, and an estimate of the absolute error of either.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Dfg {
+    pub scale: f64,
+    pub bias: f64,
+    pub error: f64,
+}
+
+/// The terms at `n_dot_v` in (0, 1] and `alpha` in [0, 1], accurate to about
+/// 1e-9; at alpha = 0 their limit. Make `rule` once for many points.
+pub fn integrate(rule: &TanhSinh, n_dot_v: f64, alpha: f64, masking: Masking) -> Dfg {
+    if alpha == 0.0 {
+        let bias = fresnel::schlick_weight(n_dot_v);
+        return Dfg { scale: 1.0 - bias, bias, error: 0.0 };
+    }
+    let view = View::new(n_dot_v, alpha, masking);
+    let theta_v = view.sine.atan2(view.cosine);
+    let all_azimuths = Normal::at_angle(0.5 * (FRAC_PI_2 - theta_v), alpha);
+    let no_azimuths = Normal::at_angle(0.5 * (FRAC_PI_2 + theta_v), alpha);
+    let start = Normal { u: 0.0, complement: 1.0 };
+    let full = integrate_normals(rule, &view, start, all_azimuths);
+    let partial = integrate_normals(rule, &view, all_azimuths, no_azimuths);
+    Dfg {
+        scale: full.scale + partial.scale,
+        bias: full.bias + partial.bias,
+        error: full.error + partial.error,
+    }
+}
+
+struct View {
+    cosine: f64,
+    sine: f64,
+    alpha: f64,
+    masking: Masking,
+}
+
+/// A normal's sample coordinate u and 1 - u, each to full relative precision.
+#[derive(Clone, Copy)]
+struct Normal {
+    u: f64,
+    complement: f64,
+}
+
+impl Normal {
+    fn at_angle(theta: f64, alpha: f64) -> Normal {
+        let t = theta.tan() / alpha;
+        let complement = 1.0 / (1.0 + t * t);
+        Normal { u: t * t * complement, complement }
+    }
+
+    /// Cosine and sine of the angle from n.
+    fn direction(self, alpha: f64) -> (f64, f64) {
+        let lifted = alpha * alpha * self.u;
+        let norm = self.complement + lifted;
+        ((self.complement / norm).sqrt(), (lifted / norm).sqrt())
+    }
+}
+
+impl View {
+    fn new(cosine: f64, alpha: f64, masking: Masking) -> View {
+        let sine = ((1.0 - cosine) * (1.0 + cosine)).sqrt();
+        View { cosine, sine, alpha, masking }
+    }
+
+    /// scale, bias and the error of either, averaged over azimuth.
+    fn ring(&self, rule: &TanhSinh, normal: Normal) -> [f64; 3] {
+        let (n_dot_h, sin_h) = normal.direction(self.alpha);
+        let horizon = -self.cosine * (n_dot_h - sin_h) * (n_dot_h + sin_h);
+        let reach = 2.0 * n_dot_h * sin_h * self.sine;
+        let phi_max = if horizon <= -reach { PI } else { (horizon / reach).min(1.0).acos() };
+        let [scale, bias] =
+            rule.integrate_all(0.0, phi_max, TOLERANCE, |phi| self.terms(n_dot_h, sin_h, phi.x));
+        let error = scale.error.max(bias.error);
+        [scale.value / PI, bias.value / PI, error / PI]
+    }
+
+    fn terms(&self, n_dot_h: f64, sin_h: f64, phi: f64) -> [f64; 2] {
+        let v_dot_h = (self.sine * sin_h * phi.cos() + self.cosine * n_dot_h).min(1.0);
+        let n_dot_l = (2.0 * v_dot_h * n_dot_h - self.cosine).min(1.0);
+        if n_dot_l <= 0.0 {
+            return [0.0; 2];
+        }
+        let g2 = match self.masking {
+            Masking::Correlated => ggx::g2_correlated(self.cosine, n_dot_l, self.alpha),
+            Masking::Separable => ggx::g2_separable(self.cosine, n_dot_l, self.alpha),
+        };
+        let weight = g2 * v_dot_h / (n_dot_h * self.cosine);
+        let fresnel = fresnel::schlick_weight(v_dot_h);
+        [(1.0 - fresnel) * weight, fresnel * weight]
+    }
+}
+
+fn integrate_normals(rule: &TanhSinh, view: &View, from: Normal, to: Normal) -> Dfg {
+    // The range is measured where it is not a difference of nearly equal numbers.
+    let width = if from.u < 0.5 { to.u - from.u } else { from.complement - to.complement };
+    if width <= 0.0 {
+        return Dfg { scale: 0.0, bias: 0.0, error: 0.0 };
+    }
+    let ring = |at: Abscissa| {
+        let normal = Normal { u: from.u + at.from_a, complement: to.complement + at.from_b };
+        view.ring(rule, normal)
+    };
+    let [scale, bias, inner] = rule.integrate_all(0.0, width, TOLERANCE, ring);
+    Dfg {
+        scale: scale.value,
+        bias: bias.value,
+        error: scale.error.max(bias.error) + inner.value.abs(),
+    }
+}
+
+/// Makes the dataset: search split at the cell centres of a regular grid on
+/// [0, 1]², unweighted, `n_dot_v` varying slowest; validation split at the
+/// nodes of another grid, edges included, with n·v = .001 in place of 0,
+/// weighted by area (trapezoidal, mean 1). No point is in both.
+///
+/// # Errors
+/// An estimated error above [`ALLOWED_ERROR`].
+pub fn generate(
+    recipe: &Recipe,
+    progress: &(dyn Fn(usize, usize) + Sync),
+) -> Result<Dataset, Error> {
+    let points = recipe.get("points").and_then(|text| text.parse().ok()).unwrap_or(64);
+    let centres = cell_centres(points);
+    let roughness = nodes_between(points);
+    let mut n_dot_v = roughness.clone();
+    n_dot_v[0] = GRAZING;
+    let tick = Tick { progress, done: AtomicUsize::new(0), total: points + n_dot_v.len() };
+    let (mut search, search_error) = sample(recipe, &centres, &centres, &tick)?;
+    search.grid = vec![points; 2];
+    let (mut validation, validation_error) = sample(recipe, &n_dot_v, &roughness, &tick)?;
+    validation.grid = vec![n_dot_v.len(), roughness.len()];
+    validation.weights = area_weights(&n_dot_v, &roughness);
+    let unit = |name: &str, domain| Column { name: name.into(), unit: "1".into(), domain };
+    let dataset = Dataset {
+        name: TARGET.name.into(),
+        recipe: format!(
+            "{recipe} // estimated error below {:.0e} before rounding to f32",
+            power_of_ten_above(search_error.max(validation_error))
+        ),
+        inputs: vec![unit("n_dot_v", [0.0, 1.0]), unit("roughness", [0.0, 1.0])],
+        outputs: vec![
+            unit("scale", domain_of(&search, &validation, 2)),
+            unit("bias", domain_of(&search, &validation, 3)),
+        ],
+        search,
+        validation,
+    };
+    dataset.validate()?;
+    Ok(dataset)
+}
+
+struct Tick<'a> {
+    progress: &'a (dyn Fn(usize, usize) + Sync),
+    done: AtomicUsize,
+    total: usize,
+}
+
+impl Tick<'_> {
+    fn one_more(&self) {
+        let done = self.done.fetch_add(1, Ordering::Relaxed) + 1;
+        (self.progress)(done, self.total);
+    }
+}
+
+/// The terms at every pair, and the largest estimated error.
+fn sample(
+    recipe: &Recipe,
+    n_dot_v: &[f32],
+    roughness: &[f32],
+    tick: &Tick,
+) -> Result<(Split, f64), Error> {
+    let rule = TanhSinh::new();
+    let masking = match recipe.get("masking") {
+        Some(SEPARABLE) => Masking::Separable,
+        _ => Masking::Correlated,
+    };
+    let rows: Vec<Vec<Dfg>> = n_dot_v
+        .par_iter()
+        .map(|&nv| {
+            let row = roughness
+                .iter()
+                .map(|&r| integrate(&rule, f64::from(nv), alpha(recipe, f64::from(r)), masking));
+            let row = row.collect();
+            tick.one_more();
+            row
+        })
+        .collect();
+    let mut columns = vec![Vec::new(); 4];
+    let mut largest_error = 0.0_f64;
+    for (&nv, row) in n_dot_v.iter().zip(&rows) {
+        for (&r, dfg) in roughness.iter().zip(row) {
+            check_accuracy(nv, r, dfg)?;
+            largest_error = largest_error.max(dfg.error);
+            let values = [nv, r, dfg.scale as f32, dfg.bias as f32];
+            columns.iter_mut().zip(values).for_each(|(column, value)| column.push(value));
+        }
+    }
+    Ok((Split { columns, ..Split::default() }, largest_error))
+}
+
+fn alpha(recipe: &Recipe, roughness: f64) -> f64 {
+    let square = roughness * roughness;
+    match recipe.get("alpha") {
+        Some(ROUGHNESS_FOURTH) => square * square,
+        _ => square,
+    }
+}
+
+fn check_accuracy(n_dot_v: f32, roughness: f32, dfg: &Dfg) -> Result<(), Error> {
+    if dfg.error <= ALLOWED_ERROR {
+        return Ok(());
+    }
+    Err(Error::Accuracy {
+        target: TARGET.name.into(),
+        point: format!("n_dot_v = {n_dot_v}, roughness = {roughness}"),
+        error: dfg.error,
+        allowed: ALLOWED_ERROR,
+    })
+}
+
+fn power_of_ten_above(value: f64) -> f64 {
+    10.0_f64.powf(value.max(1e-16).log10().ceil())
+}

@@ -1,0 +1,68 @@
+//! Ground truths to search formulas for: what there is, with which
+//! parameters, and how to make the datasets.
+//!
+//! A [`Recipe`] names a target and its parameters; [`generate`] makes the
+//! dataset from it.
+
+pub mod dfg;
+mod error;
+mod grid;
+mod recipe;
+
+pub use error::Error;
+pub use recipe::Recipe;
+
+use crate::dataset::Dataset;
+
+/// A ground truth that [`generate`] can make.
+#[derive(Debug)]
+pub struct Target {
+    pub name: &'static str,
+    /// One line.
+    pub description: &'static str,
+    /// Names of the columns, `inputs → outputs`.
+    pub columns: &'static str,
+    pub parameters: &'static [Parameter],
+}
+
+/// What may be chosen about a target.
+#[derive(Debug)]
+pub struct Parameter {
+    pub name: &'static str,
+    pub description: &'static str,
+    pub default: &'static str,
+    pub choices: Choices,
+}
+
+/// The values a parameter may have.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Choices {
+    OneOf(&'static [&'static str]),
+    /// A whole number from `least` to `most`.
+    Count {
+        least: usize,
+        most: usize,
+    },
+}
+
+/// All targets.
+pub fn targets() -> &'static [Target] {
+    &[dfg::TARGET]
+}
+
+/// Makes the dataset a recipe describes, on all of rayon's threads, the same
+/// at any number of them. It is named after its target; give it another name
+/// before saving it under another one. `progress` is called with the work units done so far
+/// and their total, from any thread.
+///
+/// # Errors
+/// A ground truth whose estimated error is larger than its target allows.
+pub fn generate(
+    recipe: &Recipe,
+    progress: &(dyn Fn(usize, usize) + Sync),
+) -> Result<Dataset, Error> {
+    match recipe.target().name {
+        name if name == dfg::TARGET.name => dfg::generate(recipe, progress),
+        name => Err(Error::unknown_target(name)),
+    }
+}

@@ -1,0 +1,135 @@
+use super::{Choices, Error, Parameter, Target, targets};
+use ron::value::{Map, Value};
+use std::fmt;
+use std::path::Path;
+
+/// A target and a value for each of its parameters. As text it is RON:
+/// `(target: "dfg", masking: "correlated", alpha: "roughness^2", points: 64)`;
+/// parameters left out have their defaults.
+#[derive(Clone, Debug)]
+pub struct Recipe {
+    target: &'static Target,
+    /// One a parameter, in the target's order, each among its choices.
+    values: Vec<String>,
+}
+
+impl PartialEq for Recipe {
+    fn eq(&self, other: &Recipe) -> bool {
+        self.target.name == other.target.name && self.values == other.values
+    }
+}
+
+impl Recipe {
+    /// A target with the defaults of its parameters.
+    ///
+    /// # Errors
+    /// No target of that name.
+    pub fn new(target: &str) -> Result<Recipe, Error> {
+        let known = targets().iter().find(|known| known.name == target);
+        let target = known.ok_or_else(|| Error::unknown_target(target))?;
+        let values = target.parameters.iter().map(|p| p.default.to_owned()).collect();
+        Ok(Recipe { target, values })
+    }
+
+    /// Reads a recipe from RON; comments are allowed.
+    ///
+    /// # Errors
+    /// Text that is not RON, or an unknown target, parameter or value.
+    pub fn parse(text: &str) -> Result<Recipe, Error> {
+        let fields: Map = match ron::from_str(text) {
+            Ok(Value::Map(fields)) => fields,
+            Ok(_) => return Err(syntax(1, 1, "it is not a list of fields in parentheses")),
+            Err(error) => {
+                let start = error.span.start;
+                return Err(syntax(start.line, start.col, &error.code.to_string()));
+            }
+        };
+        let target = fields.iter().find(|(key, _)| is_text(key, "target"));
+        let Some((_, Value::String(target))) = target else {
+            return Err(Error::no_target());
+        };
+        let mut recipe = Recipe::new(target)?;
+        for (key, value) in fields.iter().filter(|(key, _)| !is_text(key, "target")) {
+            recipe.set(&plain(key), &plain(value))?;
+        }
+        Ok(recipe)
+    }
+
+    /// Reads a recipe from a file.
+    ///
+    /// # Errors
+    /// A file that cannot be read, or those of [`Recipe::parse`], with the path.
+    pub fn load(path: &Path) -> Result<Recipe, Error> {
+        let text = std::fs::read_to_string(path)
+            .map_err(|source| Error::Read { path: path.into(), source })?;
+        Recipe::parse(&text)
+            .map_err(|error| Error::In { path: path.into(), error: Box::new(error) })
+    }
+
+    /// Gives a parameter another value.
+    ///
+    /// # Errors
+    /// An unknown parameter, or a value that is not among its choices; both
+    /// name what there is.
+    pub fn set(&mut self, parameter: &str, value: &str) -> Result<(), Error> {
+        let index = self.target.parameters.iter().position(|known| known.name == parameter);
+        let Some(index) = index else {
+            return Err(Error::unknown_parameter(self.target, parameter));
+        };
+        let known = &self.target.parameters[index];
+        self.values[index] = accepted(known, value).ok_or_else(|| Error::value(known, value))?;
+        Ok(())
+    }
+
+    pub fn target(&self) -> &'static Target {
+        self.target
+    }
+
+    /// The value of a parameter, if the target has one of that name.
+    pub fn get(&self, parameter: &str) -> Option<&str> {
+        let index = self.target.parameters.iter().position(|known| known.name == parameter)?;
+        self.values.get(index).map(String::as_str)
+    }
+}
+
+/// RON that [`Recipe::parse`] reads back.
+impl fmt::Display for Recipe {
+    fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
+        write!(f, "(target: {:?}", self.target.name)?;
+        for (parameter, value) in self.target.parameters.iter().zip(&self.values) {
+            match parameter.choices {
+                Choices::OneOf(_) => write!(f, ", {}: {value:?}", parameter.name)?,
+                Choices::Count { .. } => write!(f, ", {}: {value}", parameter.name)?,
+            }
+        }
+        write!(f, ")")
+    }
+}
+
+fn accepted(parameter: &Parameter, value: &str) -> Option<String> {
+    match parameter.choices {
+        Choices::OneOf(choices) => choices.contains(&value).then(|| value.to_owned()),
+        Choices::Count { least, most } => {
+            let count: usize = value.parse().ok()?;
+            (least..=most).contains(&count).then(|| count.to_string())
+        }
+    }
+}
+
+fn is_text(value: &Value, text: &str) -> bool {
+    matches!(value, Value::String(string) if string == text)
+}
+
+/// A scalar as it would be given on the command line.
+fn plain(value: &Value) -> String {
+    match value {
+        Value::String(text) => text.clone(),
+        Value::Bool(flag) => flag.to_string(),
+        Value::Number(number) => number.into_f64().to_string(),
+        other => format!("{other:?}"),
+    }
+}
+
+fn syntax(line: usize, column: usize, problem: &str) -> Error {
+    Error::Syntax { line, column, problem: problem.into() }
+}

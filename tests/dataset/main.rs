@@ -1,0 +1,44 @@
+//! Datasets: the `.bin` file, CSV import, selection of columns, and every way
+//! in which they refuse.
+
+mod binary;
+mod content;
+mod csv;
+
+use lgp::dataset::{Column, Dataset, Split};
+
+pub fn column(name: &str) -> Column {
+    Column { name: name.into(), unit: "1".into(), domain: [0.0, 1.0] }
+}
+
+pub fn sample() -> Dataset {
+    Dataset {
+        name: "sample".into(),
+        recipe: "(target: \"none\")".into(),
+        inputs: vec![column("n_dot_v"), column("roughness")],
+        outputs: vec![column("scale"), column("bias")],
+        search: Split {
+            columns: vec![
+                vec![0.0, 0.0, 1.0, 1.0],
+                vec![0.0, 1.0, 0.0, 1.0],
+                vec![0.1, 0.2, 0.3, 0.4],
+                vec![0.5, 0.6, 0.7, 0.8],
+            ],
+            weights: vec![],
+            grid: vec![2, 2],
+        },
+        validation: Split {
+            columns: vec![vec![0.5], vec![0.25], vec![0.15], vec![0.65]],
+            weights: vec![2.0],
+            grid: vec![],
+        },
+    }
+}
+
+pub fn names(columns: &[Column]) -> Vec<&str> {
+    columns.iter().map(|column| column.name.as_str()).collect()
+}
+
+pub fn strings(names: &[&str]) -> Vec<String> {
+    names.iter().map(|&name| name.into()).collect()
+}
