@@ -5,8 +5,12 @@ pub mod suggest;
 pub mod num;
 pub mod op;
 pub mod program;
+pub mod simplify;
 
 pub mod dataset;
+
+pub mod cost;
+pub mod grammar;
 
 pub mod eval;
 pub mod fit;

@@ -24,10 +24,10 @@ use std::ops::Deref;
 pub enum Arg {
     /// The input column of this index.
     Input(u16),
-    /// The entry of this index of the constant table.
-    Const(u16),
     /// The result of the instruction of this index.
     Result(u16),
+    /// The entry of this index of the constant table.
+    Const(u16),
 }
 
 /// An operation and its arguments.

@@ -121,7 +121,11 @@ impl Printer<'_> {
 
     fn expression(&self, i: usize) -> (String, Binding) {
         let instr = &self.program.instrs[i];
-        let args = instr.args();
+        let mut args = instr.args().to_vec();
+        // `2*x` reads better than `x*2`, and means the same bits.
+        if instr.op() == Op::Mul && matches!(args[1], Arg::Const(_)) {
+            args.swap(0, 1);
+        }
         let infix = |symbol: &str, own: Binding, right: Binding| {
             let left = self.operand(args[0], own);
             let right = self.operand(args[1], right);

@@ -1,0 +1,135 @@
+//! What a search may write: operations and how often each is tried, lengths, penalties.
+
+use crate::op::Op;
+use crate::program::Draft;
+use crate::suggest::did_you_mean;
+use serde::Deserialize;
+use std::collections::BTreeMap;
+use std::path::Path;
+
+/// The grammars that come with the program, by name.
+const BUILT_IN: [(&str, &str); 3] = [
+    ("shader", include_str!("../grammar/shader.ron")),
+    ("exp2", include_str!("../grammar/exp2.ron")),
+    ("polynomial", include_str!("../grammar/polynomial.ron")),
+];
+
+/// The most instructions a grammar may allow.
+pub const MAX_INSTRUCTIONS: usize = 64;
+
+/// What a search may write.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Grammar {
+    pub name: String,
+    pub description: String,
+    /// Operations and how often each is tried, relative to the others; not empty, all positive.
+    pub operations: Vec<(Op, f64)>,
+    pub max_instructions: usize,
+    /// Cycles that an operation is charged beyond what it costs, to discourage it.
+    pub penalties: Vec<(Op, f64)>,
+}
+
+/// A grammar that cannot be used.
+#[derive(Debug, thiserror::Error)]
+pub enum GrammarError {
+    #[error(
+        "no grammar is called `{name}`{hint} (built in: {known}; or give the path of a .ron file)"
+    )]
+    Unknown { name: String, hint: String, known: String },
+    #[error("grammar {path}: {reason}")]
+    Unreadable { path: String, reason: std::io::Error },
+    #[error("grammar {path}, line {line}, column {column}: {reason}")]
+    Syntax { path: String, line: usize, column: usize, reason: String },
+    #[error("grammar {path}: {reason}")]
+    Content { path: String, reason: String },
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct File {
+    #[serde(default)]
+    description: String,
+    operations: BTreeMap<String, f64>,
+    max_instructions: usize,
+    #[serde(default)]
+    penalties: BTreeMap<String, f64>,
+}
+
+impl Grammar {
+    /// The built-in grammars' names.
+    pub fn built_in() -> impl Iterator<Item = &'static str> {
+        BUILT_IN.iter().map(|(name, _)| *name)
+    }
+
+    /// A built-in grammar by name, or one from a `.ron` file.
+    pub fn find(name_or_path: &str) -> Result<Grammar, GrammarError> {
+        if let Some((name, text)) = BUILT_IN.iter().find(|(name, _)| *name == name_or_path) {
+            return Grammar::parse(name, text);
+        }
+        let path = Path::new(name_or_path);
+        if !path.exists() && path.extension().is_none() {
+            let known: Vec<&str> = Grammar::built_in().collect();
+            return Err(GrammarError::Unknown {
+                name: name_or_path.to_owned(),
+                hint: did_you_mean(name_or_path, known.iter().copied()),
+                known: known.join(", "),
+            });
+        }
+        let text = std::fs::read_to_string(path)
+            .map_err(|reason| GrammarError::Unreadable { path: name_or_path.to_owned(), reason })?;
+        Grammar::parse(name_or_path, &text)
+    }
+
+    /// A grammar from the text of a `.ron` file called `name`.
+    pub fn parse(name: &str, text: &str) -> Result<Grammar, GrammarError> {
+        let file: File = ron::from_str(text).map_err(|error| GrammarError::Syntax {
+            path: name.to_owned(),
+            line: error.span.start.line,
+            column: error.span.start.col,
+            reason: error.code.to_string(),
+        })?;
+        let refuse = |reason: String| GrammarError::Content { path: name.to_owned(), reason };
+        if file.operations.is_empty() {
+            return Err(refuse(
+                "`operations` is empty; name at least one, as in \"add\": 1".into(),
+            ));
+        }
+        if !(1..=MAX_INSTRUCTIONS).contains(&file.max_instructions) {
+            return Err(refuse(format!("`max_instructions` must be 1 to {MAX_INSTRUCTIONS}")));
+        }
+        let positive = |value: f64| value > 0.0 && value.is_finite();
+        Ok(Grammar {
+            name: name.to_owned(),
+            description: file.description,
+            operations: named_operations(file.operations, positive).map_err(refuse)?,
+            max_instructions: file.max_instructions,
+            penalties: named_operations(file.penalties, |value| value >= 0.0).map_err(refuse)?,
+        })
+    }
+
+    /// What the program's operations are charged beyond their cost.
+    pub fn penalty(&self, draft: &Draft) -> f64 {
+        let of = |op| self.penalties.iter().find(|(known, _)| *known == op).map_or(0.0, |p| p.1);
+        draft.instrs.iter().map(|instr| of(instr.op())).sum()
+    }
+}
+
+/// Names to operations, in table order.
+fn named_operations(
+    values: BTreeMap<String, f64>,
+    valid: impl Fn(f64) -> bool,
+) -> Result<Vec<(Op, f64)>, String> {
+    let mut operations = Vec::new();
+    for (name, value) in values {
+        let Some(op) = Op::from_name(&name) else {
+            let hint = did_you_mean(&name, Op::ALL.iter().map(|op| op.name()));
+            return Err(format!("unknown operation \"{name}\"{hint}"));
+        };
+        if !valid(value) {
+            return Err(format!("\"{name}\": {value} must be a positive number"));
+        }
+        operations.push((op, value));
+    }
+    operations.sort_by_key(|(op, _)| *op);
+    Ok(operations)
+}

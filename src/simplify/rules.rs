@@ -1,0 +1,287 @@
+//! The rewriting rules. `c` stands for constants, `x`, `y` for anything.
+
+use super::Simplifier;
+use crate::op::Op;
+use crate::program::Arg;
+
+impl Simplifier {
+    /// What `op` on `args` is by one of the rules; the arguments are simplified already.
+    pub(super) fn rewrite(&mut self, op: Op, args: &[Arg]) -> Option<Arg> {
+        let (x, y) = (args[0], *args.get(1).unwrap_or(&args[0]));
+        match op {
+            Op::Add => self.sum(x, y),
+            Op::Sub => self.difference(x, y),
+            Op::Mul => self.product(x, y),
+            Op::Div => self.quotient(x, y),
+            Op::Neg => self.negation(x),
+            Op::Min | Op::Max => self.extremum(op, x, y),
+            Op::Mad => {
+                let product = self.build(Op::Mul, &args[..2]);
+                Some(self.build(Op::Add, &[product, args[2]]))
+            }
+            Op::Abs => match self.definition(x)?.op() {
+                Op::Abs => Some(x),
+                Op::Neg => {
+                    let (inner, _) = self.operands(x, Op::Neg)?;
+                    Some(self.build(Op::Abs, &[inner]))
+                }
+                _ => None,
+            },
+            Op::Saturate => self.operands(x, Op::Saturate).map(|_| x),
+            Op::Lerp if x == y => Some(x),
+            Op::Select if args[2] == args[3] => Some(args[2]),
+            _ => self.inverse(op, x),
+        }
+    }
+
+    /// Functions of their inverse.
+    fn inverse(&mut self, op: Op, x: Arg) -> Option<Arg> {
+        let inner = self.definition(x)?;
+        let (y, _) = self.operands(x, inner.op())?;
+        match (op, inner.op()) {
+            (Op::Exp2, Op::Log2) | (Op::Log2, Op::Exp2) => Some(y),
+            (Op::Exp, Op::Log) | (Op::Log, Op::Exp) => Some(y),
+            (Op::Rcp, Op::Rcp) => Some(y),
+            (Op::Rcp, Op::Sqrt) | (Op::Sqrt, Op::Rcp) => Some(self.build(Op::Rsqrt, &[y])),
+            (Op::Rcp, Op::Rsqrt) => Some(self.build(Op::Sqrt, &[y])),
+            (Op::Sqrt, Op::Mul) if inner.args()[0] == inner.args()[1] => {
+                Some(self.build(Op::Abs, &[y]))
+            }
+            (Op::Rcp, Op::Div) if self.is_read_once(x) => {
+                let args = [inner.args()[1], inner.args()[0]];
+                Some(self.build(Op::Div, &args))
+            }
+            _ => None,
+        }
+    }
+
+    fn sum(&mut self, x: Arg, y: Arg) -> Option<Arg> {
+        if self.constant(x).is_some() {
+            return self.sum_with_constant(y, x);
+        }
+        if self.constant(y).is_some() {
+            return self.sum_with_constant(x, y);
+        }
+        if let Some((inner, _)) = self.operands(y, Op::Neg) {
+            return Some(self.build(Op::Sub, &[x, inner]));
+        }
+        if let Some((inner, _)) = self.operands(x, Op::Neg) {
+            return Some(self.build(Op::Sub, &[y, inner]));
+        }
+        if x == y {
+            let two = self.draft.constant(2.0);
+            return Some(self.build(Op::Mul, &[x, two]));
+        }
+        // (x + c₁) + (y + c₂) = x + (y + c)
+        let (left, c1) = self.constant_last(x, Op::Add).filter(|_| self.is_read_once(x))?;
+        let (right, c2) = self.constant_last(y, Op::Add).filter(|_| self.is_read_once(y))?;
+        let c = self.build(Op::Add, &[c1, c2]);
+        let right = self.build(Op::Add, &[right, c]);
+        Some(self.build(Op::Add, &[left, right]))
+    }
+
+    fn sum_with_constant(&mut self, x: Arg, c: Arg) -> Option<Arg> {
+        if self.constant(c) == Some(0.0) {
+            return Some(x);
+        }
+        if let Some((inner, c2)) = self.constant_last(x, Op::Add) {
+            let c = self.build(Op::Add, &[c2, c]);
+            return Some(self.build(Op::Add, &[inner, c]));
+        }
+        let (left, right) = self.operands(x, Op::Sub)?;
+        self.constant(left)?;
+        let c = self.build(Op::Add, &[left, c]);
+        Some(self.build(Op::Sub, &[c, right]))
+    }
+
+    /// The operands of `arg`, an `op` of something and a constant, the constant second.
+    fn constant_last(&self, arg: Arg, op: Op) -> Option<(Arg, Arg)> {
+        let (a, b) = self.operands(arg, op)?;
+        match (self.constant(a), self.constant(b)) {
+            (_, Some(_)) => Some((a, b)),
+            (Some(_), _) if op.commutes() => Some((b, a)),
+            _ => None,
+        }
+    }
+
+    fn difference(&mut self, x: Arg, y: Arg) -> Option<Arg> {
+        if x == y {
+            return Some(self.draft.constant(0.0));
+        }
+        if let Some(c) = self.constant(y) {
+            let c = self.draft.constant(-c);
+            return Some(self.build(Op::Add, &[x, c]));
+        }
+        if self.constant(x) == Some(0.0) {
+            return Some(self.build(Op::Neg, &[y]));
+        }
+        if let Some((inner, _)) = self.operands(y, Op::Neg) {
+            return Some(self.build(Op::Add, &[x, inner]));
+        }
+        if self.constant(x).is_some() {
+            // c₁ − (x + c₂), c₁ − (c₂ − x), c₁ − c₂x
+            if let Some((inner, c2)) = self.constant_last(y, Op::Add) {
+                let c = self.build(Op::Sub, &[x, c2]);
+                return Some(self.build(Op::Sub, &[c, inner]));
+            }
+            if let Some((left, right)) = self.operands(y, Op::Sub)
+                && self.constant(left).is_some()
+            {
+                let c = self.build(Op::Sub, &[x, left]);
+                return Some(self.build(Op::Add, &[right, c]));
+            }
+            if let Some(negated) = self.negated_product(y) {
+                return Some(self.build(Op::Add, &[negated, x]));
+            }
+        }
+        None
+    }
+
+    /// `−(c x)` as `(−c) x`, where nothing else reads the product.
+    fn negated_product(&mut self, arg: Arg) -> Option<Arg> {
+        let (inner, c) = self.constant_last(arg, Op::Mul).filter(|_| self.is_read_once(arg))?;
+        let c = self.build(Op::Neg, &[c]);
+        Some(self.build(Op::Mul, &[inner, c]))
+    }
+
+    fn negation(&mut self, x: Arg) -> Option<Arg> {
+        if let Some((inner, _)) = self.operands(x, Op::Neg) {
+            return Some(inner);
+        }
+        if let Some((left, right)) = self.operands(x, Op::Sub)
+            && self.is_read_once(x)
+        {
+            return Some(self.build(Op::Sub, &[right, left]));
+        }
+        if let Some((inner, c)) = self.constant_last(x, Op::Add)
+            && self.is_read_once(x)
+        {
+            let c = self.build(Op::Neg, &[c]);
+            return Some(self.build(Op::Sub, &[c, inner]));
+        }
+        self.negated_product(x)
+    }
+
+    fn product(&mut self, x: Arg, y: Arg) -> Option<Arg> {
+        if self.constant(x).is_some() {
+            return self.product_with_constant(y, x);
+        }
+        if self.constant(y).is_some() {
+            return self.product_with_constant(x, y);
+        }
+        for (a, b) in [(x, y), (y, x)] {
+            if let Some((inner, _)) = self.operands(a, Op::Neg) {
+                let product = self.build(Op::Mul, &[inner, b]);
+                return Some(self.build(Op::Neg, &[product]));
+            }
+            // (c x) y = (x y) c, so that constants meet.
+            if let Some((inner, c)) = self.constant_last(a, Op::Mul)
+                && self.is_read_once(a)
+            {
+                let product = self.build(Op::Mul, &[inner, b]);
+                return Some(self.build(Op::Mul, &[product, c]));
+            }
+            if let Some((inner, _)) = self.operands(a, Op::Rcp) {
+                return Some(self.build(Op::Div, &[b, inner]));
+            }
+        }
+        if x == y
+            && let Some((inner, _)) = self.operands(x, Op::Sqrt)
+        {
+            return Some(inner);
+        }
+        None
+    }
+
+    fn product_with_constant(&mut self, x: Arg, c: Arg) -> Option<Arg> {
+        match self.constant(c) {
+            Some(1.0) => return Some(x),
+            Some(0.0) => return Some(self.draft.constant(0.0)),
+            _ => {}
+        }
+        if let Some((inner, c2)) = self.constant_last(x, Op::Mul) {
+            let c = self.build(Op::Mul, &[c2, c]);
+            return Some(self.build(Op::Mul, &[inner, c]));
+        }
+        if let Some((inner, _)) = self.operands(x, Op::Neg) {
+            let c = self.build(Op::Neg, &[c]);
+            return Some(self.build(Op::Mul, &[inner, c]));
+        }
+        if let Some((left, right)) = self.operands(x, Op::Div)
+            && self.constant(left).is_some()
+        {
+            let c = self.build(Op::Mul, &[left, c]);
+            return Some(self.build(Op::Div, &[c, right]));
+        }
+        self.distributed(x, c)
+    }
+
+    /// `(c₁ x + c₂) c = (c₁ c) x + c₂ c`, which saves a product.
+    fn distributed(&mut self, x: Arg, c: Arg) -> Option<Arg> {
+        let (sum, c2) = self.constant_last(x, Op::Add).filter(|_| self.is_read_once(x))?;
+        let (inner, c1) = self.constant_last(sum, Op::Mul).filter(|_| self.is_read_once(sum))?;
+        let c1 = self.build(Op::Mul, &[c1, c]);
+        let c2 = self.build(Op::Mul, &[c2, c]);
+        let product = self.build(Op::Mul, &[inner, c1]);
+        Some(self.build(Op::Add, &[product, c2]))
+    }
+
+    fn quotient(&mut self, x: Arg, y: Arg) -> Option<Arg> {
+        if x == y {
+            return Some(self.draft.constant(1.0));
+        }
+        if let Some(c) = self.constant(y) {
+            let inverse = 1.0 / c;
+            if !inverse.is_finite() {
+                return None;
+            }
+            let inverse = self.draft.constant(inverse);
+            return Some(self.build(Op::Mul, &[x, inverse]));
+        }
+        if let Some((inner, _)) = self.operands(y, Op::Rcp) {
+            return Some(self.build(Op::Mul, &[x, inner]));
+        }
+        if self.constant(x).is_some() {
+            // c₁ / (c₂ y)
+            if let Some((inner, c2)) = self.constant_last(y, Op::Mul) {
+                let c = self.fold(Op::Div, &[x, c2])?;
+                return Some(self.build(Op::Div, &[c, inner]));
+            }
+            if self.constant(x) == Some(1.0) {
+                return Some(self.build(Op::Rcp, &[y]));
+            }
+        }
+        for (a, b, numerator) in [(x, y, true), (y, x, false)] {
+            if let Some((inner, _)) = self.operands(a, Op::Neg) {
+                let quotient =
+                    self.build(Op::Div, &if numerator { [inner, b] } else { [b, inner] });
+                return Some(self.build(Op::Neg, &[quotient]));
+            }
+        }
+        // (c x) / y = (x / y) c
+        let (inner, c) = self.constant_last(x, Op::Mul).filter(|_| self.is_read_once(x))?;
+        let quotient = self.build(Op::Div, &[inner, y]);
+        Some(self.build(Op::Mul, &[quotient, c]))
+    }
+
+    fn extremum(&mut self, op: Op, x: Arg, y: Arg) -> Option<Arg> {
+        if x == y {
+            return Some(x);
+        }
+        for (a, b) in [(x, y), (y, x)] {
+            // min(min(x, c₁), c₂), min(min(x, y), y)
+            if let Some((left, right)) = self.operands(a, op) {
+                if left == b || right == b {
+                    return Some(a);
+                }
+                if let Some((inner, c)) = self.constant_last(a, op)
+                    && self.constant(b).is_some()
+                {
+                    let c = self.build(op, &[c, b]);
+                    return Some(self.build(op, &[inner, c]));
+                }
+            }
+        }
+        None
+    }
+}

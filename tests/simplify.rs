@@ -1,0 +1,100 @@
+//! Simplification keeps what a program computes, and never makes it dearer.
+
+use lgp::cost::{CostScratch, Profile};
+use lgp::op::Op;
+use lgp::program::{Arg, Draft, Names, Program, parse, print};
+use lgp::simplify::Simplifier;
+use rand::{RngExt, SeedableRng};
+use rand_chacha::ChaCha8Rng;
+
+fn simplified(draft: &Draft) -> Program {
+    let mut target = Draft::default();
+    Simplifier::default().simplify(draft, &mut target);
+    Program::verify(target).expect("simplification gives a program")
+}
+
+/// Operations whose rounding stays small next to their arguments, so that values can be compared.
+const TAME: [Op; 12] = [
+    Op::Add,
+    Op::Sub,
+    Op::Mul,
+    Op::Div,
+    Op::Neg,
+    Op::Abs,
+    Op::Min,
+    Op::Max,
+    Op::Mad,
+    Op::Rcp,
+    Op::Sqrt,
+    Op::Saturate,
+];
+
+#[test]
+fn random_programs_keep_their_values_and_do_not_become_dearer() {
+    let profile = Profile::find("gcn").unwrap();
+    let mut scratch = CostScratch::default();
+    let mut rng = ChaCha8Rng::seed_from_u64(5);
+    let mut compared = 0;
+    for _ in 0..20_000 {
+        let mut draft = Draft { inputs: 2, ..Draft::default() };
+        for _ in 0..4 {
+            draft.constant(rng.random_range(-2.0..2.0));
+        }
+        let length = rng.random_range(1..12u16);
+        for i in 0..length {
+            let args: [Arg; 4] = std::array::from_fn(|_| match rng.random_range(0..5) {
+                0 => Arg::Input(rng.random_range(0..2)),
+                1 | 2 => Arg::Const(rng.random_range(0..4)),
+                _ if i == 0 => Arg::Input(1),
+                _ => Arg::Result(rng.random_range(0..i)),
+            });
+            draft.push(TAME[rng.random_range(0..TAME.len())], &args);
+        }
+        draft.outputs = vec![Arg::Result(length - 1)];
+        let program = Program::verify(draft).unwrap();
+        let simple = simplified(&program);
+        let [before, after] = [&program, &simple].map(|p| profile.cycles(p, &mut scratch));
+        let names = Names::new(["x", "y"], ["f"]);
+        let texts = || format!("{} -> {}", print(&program, &names), print(&simple, &names));
+        assert!(after <= before, "{before} -> {after}: {}", texts());
+        let wide = |p: &Program, x: [f32; 2]| f64::from(p.evaluate(&x)[0]);
+        for x in [[0.3, 0.6], [0.9, 0.15]] {
+            let (a, b) = (wide(&program, x), wide(&simple, x));
+            // Where values cancel or blow up, rounding differs by more.
+            if a.is_finite() && a.abs() > 1e-2 && a.abs() < 1e2 {
+                compared += 1;
+                assert!((a - b).abs() < 2e-2 * a.abs(), "{a} -> {b}: {}", texts());
+            }
+        }
+    }
+    assert!(compared > 10_000, "{compared}");
+}
+
+#[test]
+fn rules_rewrite_as_they_say() {
+    let names = Names::new(["x", "y"], ["f"]);
+    for (text, expected) in [
+        ("f = (x + 1) + 2", "f = x + 3"),
+        ("f = 3 - (x + 1)", "f = 2 - x"),
+        ("f = 2*(3*x)", "f = 6*x"),
+        ("f = (2*x + 1)*3", "f = 6*x + 3"),
+        ("f = 6/(2*x)", "f = 3/x"),
+        ("f = -(x - y)", "f = y - x"),
+        ("f = x + -y", "f = x - y"),
+        ("f = x*-y", "f = -(x*y)"),
+        ("f = min(min(x, 3), 2)", "f = min(x, 2)"),
+        ("f = max(x, max(x, y))", "f = max(x, y)"),
+        ("f = x*y + y*x", "f = 2*(x*y)"),
+        ("f = exp2(log2(x))", "f = x"),
+        ("f = 1/sqrt(x)", "f = rsqrt(x)"),
+        ("f = sqrt(x^2)", "f = abs(x)"),
+        ("f = x - x + y", "f = y"),
+        ("f = x/x*y", "f = y"),
+        ("f = y*rcp(x)", "f = y/x"),
+        ("f = mad(x, y, 1)", "f = x*y + 1"),
+        ("f = x + 2*3", "f = x + 6"),
+    ] {
+        let simple = simplified(&parse(text, &names).unwrap());
+        assert_eq!(print(&simple, &names), expected, "{text}");
+    }
+}
