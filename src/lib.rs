@@ -8,12 +8,14 @@ pub mod program;
 pub mod simplify;
 
 pub mod dataset;
-
-pub mod cost;
 pub mod grammar;
 
+pub mod cost;
 pub mod eval;
 pub mod fit;
+
+pub mod archive;
+pub mod search;
 
 pub mod microfacet;
 pub mod quadrature;

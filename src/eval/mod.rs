@@ -24,12 +24,14 @@ mod isa;
 mod kernels;
 mod loss;
 mod samples;
+mod score;
 mod tape;
 
 pub use gauss_newton::{Jacobian, NormalEquations};
 pub use isa::Isa;
 pub use loss::Loss;
 pub use samples::Samples;
+pub use score::{OutputError, Score, joint};
 pub use tape::Tape;
 
 use crate::num::{Lanes, Many};

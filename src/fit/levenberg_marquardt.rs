@@ -24,6 +24,7 @@ pub struct Fitter {
     trial_constants: Vec<f32>,
     factor: Vec<f64>,
     step: Vec<f64>,
+    damping: f64,
 }
 
 /// Damping beyond which no step is tried any more.
@@ -40,20 +41,22 @@ impl Fitter {
     pub fn fit(&mut self, program: &mut Draft, samples: &Samples, stop: Stop) -> f64 {
         self.derivative.assign(program);
         self.tape.prepare(&self.derivative.program);
+        self.constants.clone_from(&self.derivative.program.consts);
+        self.damping = 1e-3;
         let jacobian = &self.derivative.jacobian;
-        let evaluator = &mut self.evaluator;
-        evaluator.normal_equations(&self.tape, jacobian, samples, &mut self.current);
+        self.evaluator.normal_equations(&self.tape, jacobian, samples, &mut self.current);
+        self.go_on(program, samples, stop)
+    }
+
+    /// Takes further steps of the last [`Fitter::fit`], which was of the same program and samples.
+    pub fn go_on(&mut self, program: &mut Draft, samples: &Samples, stop: Stop) -> f64 {
         if program.consts.is_empty() || !is_finite(&self.current) {
             return self.current.sum_of_squares;
         }
-        self.constants.clone_from(&self.derivative.program.consts);
-        let mut damping = 1e-3;
         for _ in 0..stop.max_steps {
-            let Some(gain) = self.step(program.consts.len(), samples, &mut damping) else {
-                break;
-            };
-            if gain < stop.min_gain {
-                break;
+            match self.step(program.consts.len(), samples) {
+                Some(gain) if gain >= stop.min_gain => {}
+                _ => break,
             }
         }
         let fitted = &self.constants[..program.consts.len()];
@@ -63,9 +66,9 @@ impl Fitter {
 
     /// One accepted step, with as much damping as it takes; the share by which it lowers
     /// the sum of squares, or nothing where no step does.
-    fn step(&mut self, parameters: usize, samples: &Samples, damping: &mut f64) -> Option<f64> {
-        while *damping < MAX_DAMPING {
-            if self.solve(parameters, *damping) && self.move_constants(parameters) {
+    fn step(&mut self, parameters: usize, samples: &Samples) -> Option<f64> {
+        while self.damping < MAX_DAMPING {
+            if self.solve(parameters, self.damping) && self.move_constants(parameters) {
                 self.tape.set_constants(&self.trial_constants);
                 let jacobian = &self.derivative.jacobian;
                 self.evaluator.normal_equations(&self.tape, jacobian, samples, &mut self.trial);
@@ -73,11 +76,11 @@ impl Fitter {
                 if is_finite(&self.trial) && new < old {
                     std::mem::swap(&mut self.current, &mut self.trial);
                     std::mem::swap(&mut self.constants, &mut self.trial_constants);
-                    *damping = (*damping * 0.1).max(1e-9);
+                    self.damping = (self.damping * 0.1).max(1e-9);
                     return Some((old - new) / old);
                 }
             }
-            *damping *= 8.0;
+            self.damping *= 8.0;
         }
         None
     }

@@ -102,7 +102,9 @@ pub(crate) use operations;
 macro_rules! define_operations {
     ($($(#[$doc:meta])* $op:ident $name:literal ($($arg:ident),*) [$($property:ident)*] $hazard:ident = $meaning:expr;)*) => {
         /// An operation: a row of the table.
-        #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+        #[derive(
+            Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, serde::Serialize, serde::Deserialize,
+        )]
         #[repr(u8)]
         pub enum Op { $($(#[$doc])* $op,)* }
 

@@ -17,10 +17,11 @@ pub use text::{
 };
 
 use crate::op::{MAX_ARITY, Op};
+use serde::{Deserialize, Serialize};
 use std::ops::Deref;
 
 /// Where an argument, or an output, comes from.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
 pub enum Arg {
     /// The input column of this index.
     Input(u16),
@@ -31,7 +32,7 @@ pub enum Arg {
 }
 
 /// An operation and its arguments.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, Deserialize)]
 pub struct Instr {
     op: Op,
     args: [Arg; MAX_ARITY],
@@ -64,7 +65,7 @@ impl Instr {
 }
 
 /// A program not yet verified.
-#[derive(Clone, Debug, PartialEq, Default)]
+#[derive(Clone, Debug, PartialEq, Default, Serialize, Deserialize)]
 pub struct Draft {
     /// The number of input columns.
     pub inputs: usize,

@@ -1,0 +1,71 @@
+//! The errors that are quoted.
+
+use super::{Evaluator, Samples, Tape};
+use crate::dataset::Dataset;
+use crate::program::Program;
+use serde::{Deserialize, Serialize};
+
+/// Errors of one output, in its own unit.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct OutputError {
+    pub rmse: f64,
+    pub max: f64,
+}
+
+/// A program's errors on a dataset. What is not finite is infinite.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Score {
+    /// On the search split, unweighted, by output.
+    pub search: Vec<OutputError>,
+    /// On the validation split, weighted, by output.
+    pub validation: Vec<OutputError>,
+}
+
+impl Score {
+    /// Scores a program whose outputs are the dataset's, in order.
+    ///
+    /// # Panics
+    /// If the numbers of inputs or outputs differ.
+    pub fn of(program: &Program, dataset: &Dataset, evaluator: &mut Evaluator) -> Score {
+        assert_eq!(program.outputs.len(), dataset.outputs.len(), "the dataset's outputs");
+        let tape = Tape::new(program);
+        let inputs = dataset.inputs.len();
+        let mut errors = |split: &crate::dataset::Split, weight: &dyn Fn(usize) -> f64| {
+            let samples = Samples::new(split, inputs);
+            let values = evaluator.outputs(&tape, &samples);
+            let targets = &split.columns[inputs..];
+            values.iter().zip(targets).map(|(f, y)| output_error(f, y, weight)).collect()
+        };
+        Score {
+            search: errors(&dataset.search, &|_| 1.0),
+            validation: errors(&dataset.validation, &|row| {
+                f64::from(dataset.validation.weight(row))
+            }),
+        }
+    }
+
+    /// Whether the program is finite on every sample.
+    pub fn is_finite(&self) -> bool {
+        self.search.iter().chain(&self.validation).all(|e| e.rmse.is_finite() && e.max.is_finite())
+    }
+}
+
+/// The root mean square of the outputs' RMSEs, and the largest of their maxima.
+pub fn joint(errors: &[OutputError]) -> OutputError {
+    let mean = errors.iter().map(|e| e.rmse * e.rmse).sum::<f64>() / errors.len() as f64;
+    OutputError { rmse: mean.sqrt(), max: errors.iter().map(|e| e.max).fold(0.0, f64::max) }
+}
+
+fn output_error(values: &[f32], targets: &[f32], weight: &dyn Fn(usize) -> f64) -> OutputError {
+    let (mut squares, mut weights, mut max) = (0.0, 0.0, 0.0f64);
+    for (row, (&f, &y)) in values.iter().zip(targets).enumerate() {
+        if !f.is_finite() {
+            return OutputError { rmse: f64::INFINITY, max: f64::INFINITY };
+        }
+        let difference = f64::from(f) - f64::from(y);
+        squares += weight(row) * difference * difference;
+        weights += weight(row);
+        max = max.max(difference.abs());
+    }
+    OutputError { rmse: (squares / weights).sqrt(), max }
+}

@@ -1,0 +1,179 @@
+//! An island: a population, and the life of a candidate on it.
+
+use super::population::{Individual, Population};
+use super::vary::{Variation, random_draft};
+use super::{Counts, Problem, Settings};
+use crate::archive::{Archive, Member};
+use crate::cost::CostScratch;
+use crate::fit::{Fitter, Stop};
+use crate::op::Op;
+use crate::program::{Constants, Draft, effective_into, structural_hash};
+use crate::simplify::Simplifier;
+use rand::SeedableRng;
+use rand_chacha::ChaCha8Rng;
+use serde::{Deserialize, Serialize};
+
+/// Structures that an island remembers having fitted; a newer one takes the place of an older.
+const MEMORY: usize = 1 << 18;
+
+/// Fits of one structure, from different starting constants, before it counts as seen.
+const TRIES: u64 = 2;
+
+/// A first look at a candidate, and what a promising one is given.
+const FIRST_STEPS: Stop = Stop { max_steps: 3, min_gain: 1e-3 };
+const MORE_STEPS: Stop = Stop { max_steps: 14, min_gain: 1e-3 };
+const ALL_SAMPLES: Stop = Stop { max_steps: 8, min_gain: 1e-3 };
+
+/// After the first steps a candidate this many times worse (in mean square) than what it must beat is
+/// hopeless.
+const HOPELESS: f64 = 6.0;
+
+/// The subset's error estimates the whole table's to within this share.
+const SUBSET_TOLERANCE: f64 = 1.15;
+
+#[derive(Clone, Debug, Serialize, Deserialize)]
+pub(super) struct Island {
+    pub population: Population,
+    /// As the last barrier left it, and what this island has found since.
+    pub archive: Archive,
+    pub counts: Counts,
+    /// Hashes of structures, the low bits counting tries.
+    seen: Vec<u64>,
+    #[serde(skip)]
+    workshop: Workshop,
+}
+
+/// The memory in which candidates are made; no state between candidates.
+#[derive(Clone, Debug, Default)]
+struct Workshop {
+    variation: Variation,
+    simplifier: Simplifier,
+    fitter: Fitter,
+    cost: CostScratch,
+    hashes: Vec<u64>,
+    uses: Vec<u32>,
+    child: Draft,
+    candidate: Draft,
+}
+
+impl Island {
+    pub fn new(settings: &Settings) -> Island {
+        Island {
+            population: Population::new(settings.max_cost, settings.bucket_size),
+            archive: Archive::default(),
+            counts: Counts::default(),
+            seen: vec![0; MEMORY],
+            workshop: Workshop::default(),
+        }
+    }
+
+    /// One generation, on a random stream of its own.
+    pub fn generation(&mut self, problem: &Problem, settings: &Settings, stream: u64) {
+        let mut rng = ChaCha8Rng::seed_from_u64(settings.seed);
+        rng.set_stream(stream);
+        for _ in 0..settings.candidates {
+            self.counts.considered += 1;
+            self.conceive(&mut rng, problem);
+            self.consider(problem, settings);
+        }
+    }
+
+    /// Makes a child of the population, or a random draft where there is none.
+    fn conceive(&mut self, rng: &mut ChaCha8Rng, problem: &Problem) {
+        let Workshop { variation, child, .. } = &mut self.workshop;
+        match (self.population.pick(rng), self.population.pick(rng)) {
+            (Some(parent), Some(donor)) => {
+                child.copy_from(&parent.draft);
+                variation.vary(rng, child, &donor.draft, problem.grammar);
+            }
+            _ => {
+                let (inputs, outputs) = (problem.all.inputs(), problem.all.outputs());
+                random_draft(rng, inputs, outputs, problem.grammar, child);
+            }
+        }
+    }
+
+    /// Simplifies, costs, fits and offers the child; drops it where it has no chance.
+    fn consider(&mut self, problem: &Problem, settings: &Settings) {
+        let Workshop { simplifier, fitter, cost: scratch, hashes, uses, child, candidate, .. } =
+            &mut self.workshop;
+        simplifier.simplify(child, candidate);
+        if !is_written_in(candidate, problem) {
+            effective_into(child, candidate, uses);
+        }
+        let constants_are_finite = candidate.consts.iter().all(|c| c.is_finite());
+        if candidate.instrs.len() > problem.grammar.max_instructions || !constants_are_finite {
+            self.counts.too_long += 1;
+            return;
+        }
+        let cost = problem.cost(candidate, scratch);
+        if cost > settings.max_cost {
+            self.counts.too_dear += 1;
+            return;
+        }
+        let hash = structural_hash(candidate, Constants::Ignored, hashes);
+        if !remember(&mut self.seen, hash) {
+            self.counts.seen += 1;
+            return;
+        }
+        let admission = self.population.admission(cost);
+        let subset = &problem.subset;
+        let scale = 1.0 / (subset.total_weight() * subset.outputs() as f64);
+        let loss = fitter.fit(candidate, subset, FIRST_STEPS) * scale;
+        self.counts.fitted += 1;
+        if !loss.is_finite() {
+            self.counts.not_finite += 1;
+            return;
+        }
+        if loss > admission * HOPELESS {
+            self.counts.hopeless += 1;
+            return;
+        }
+        let loss = fitter.go_on(candidate, subset, MORE_STEPS) * scale;
+        if loss >= admission {
+            self.counts.no_better += 1;
+            return;
+        }
+        self.counts.admitted += 1;
+        let newcomer = Individual { draft: candidate.clone(), cost, loss, hash };
+        if self.population.offer(newcomer) && loss < self.archive.best_loss(cost) * SUBSET_TOLERANCE
+        {
+            self.counts.fitted_on_all += 1;
+            let loss = fitter.fit(candidate, &problem.all, ALL_SAMPLES) * problem.scale();
+            self.archive.offer(Member { cost, loss, draft: candidate.clone() });
+        }
+    }
+
+    /// Takes in another island's best.
+    pub fn welcome(&mut self, migrants: Vec<Individual>) {
+        for migrant in migrants {
+            self.population.offer(migrant);
+        }
+    }
+
+    /// Takes a draft from elsewhere into the population, fitted.
+    pub fn settle(&mut self, draft: &Draft, problem: &Problem, settings: &Settings) {
+        self.workshop.child.copy_from(draft);
+        self.consider(problem, settings);
+    }
+}
+
+/// Whether the grammar has each operation, negation apart, which is free.
+fn is_written_in(draft: &Draft, problem: &Problem) -> bool {
+    let known = |op: Op| problem.grammar.operations.iter().any(|(known, _)| *known == op);
+    draft.instrs.iter().all(|instr| instr.op() == Op::Neg || known(instr.op()))
+}
+
+/// Notes a structure; false where it has been fitted often enough.
+fn remember(seen: &mut [u64], hash: u64) -> bool {
+    const COUNT: u64 = 3;
+    let entry = &mut seen[(hash >> 40) as usize & (MEMORY - 1)];
+    if *entry & !COUNT != hash & !COUNT {
+        *entry = hash & !COUNT;
+    }
+    if *entry & COUNT >= TRIES {
+        return false;
+    }
+    *entry += 1;
+    true
+}

@@ -1,0 +1,224 @@
+//! The search: islands of programs, varied, costed, fitted, and kept where they are best.
+//!
+//! Each generation every island considers the same number of candidates on a random stream of its
+//! own (seed, island, generation); archives are merged and migrants exchanged only between
+//! generations, in the islands' order. So the number of threads changes nothing but the time.
+
+mod front;
+mod island;
+mod population;
+mod vary;
+
+pub use front::{Front, FrontMember};
+
+use crate::archive::Archive;
+use crate::cost::{CostScratch, Profile};
+use crate::dataset::Dataset;
+use crate::eval::Samples;
+use crate::grammar::Grammar;
+use crate::program::Draft;
+use island::Island;
+use rayon::prelude::*;
+use serde::{Deserialize, Serialize};
+
+/// What decides the course of a search, given its problem.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Settings {
+    pub seed: u64,
+    /// Populations that evolve apart; not the number of threads.
+    pub islands: usize,
+    /// Candidates that an island considers in a generation.
+    pub candidates: usize,
+    /// Individuals that an island keeps at each cost.
+    pub bucket_size: usize,
+    /// Cycles that a candidate may cost at most.
+    pub max_cost: f64,
+    /// Generations between migrations.
+    pub migration_interval: u64,
+    /// Samples on which candidates race; all of them where there are fewer.
+    pub subset: usize,
+}
+
+impl Default for Settings {
+    fn default() -> Settings {
+        Settings {
+            seed: 1,
+            islands: 8,
+            candidates: 400,
+            bucket_size: 12,
+            max_cost: 40.0,
+            migration_interval: 20,
+            subset: 256,
+        }
+    }
+}
+
+/// What is searched for: a formula of some grammar for some samples, cheap on some GPU.
+#[derive(Clone, Debug)]
+pub struct Problem<'a> {
+    pub dataset: &'a Dataset,
+    pub grammar: &'a Grammar,
+    pub profile: &'a Profile,
+    all: Samples,
+    subset: Samples,
+}
+
+impl<'a> Problem<'a> {
+    /// Lays the samples out, with a subset of `settings.subset` of them.
+    ///
+    /// # Panics
+    /// If the dataset is not valid.
+    pub fn new(
+        dataset: &'a Dataset,
+        grammar: &'a Grammar,
+        profile: &'a Profile,
+        settings: &Settings,
+    ) -> Problem<'a> {
+        let inputs = dataset.inputs.len();
+        let rows = spread_rows(dataset.search.rows(), settings.subset);
+        Problem {
+            dataset,
+            grammar,
+            profile,
+            all: Samples::new(&dataset.search, inputs),
+            subset: Samples::of_rows(&dataset.search, inputs, &rows),
+        }
+    }
+
+    /// Cycles and penalties.
+    fn cost(&self, draft: &Draft, scratch: &mut CostScratch) -> f64 {
+        self.profile.cycles(draft, scratch) + self.grammar.penalty(draft)
+    }
+
+    /// What turns a sum of squares over all samples and outputs into a mean.
+    fn scale(&self) -> f64 {
+        1.0 / (self.all.total_weight() * self.all.outputs() as f64)
+    }
+}
+
+/// Rows spread evenly over the table, by the golden ratio: on a grid they form a lattice.
+fn spread_rows(rows: usize, wanted: usize) -> Vec<u32> {
+    if rows <= wanted {
+        return (0..rows as u32).collect();
+    }
+    const GOLDEN: f64 = 0.618_033_988_749_894_9;
+    let mut spread: Vec<u32> =
+        (0..wanted).map(|i| (((i as f64 + 0.5) * GOLDEN).fract() * rows as f64) as u32).collect();
+    spread.sort_unstable();
+    spread.dedup();
+    spread
+}
+
+/// What became of the candidates; each is counted once under `considered` and where it ended.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+pub struct Counts {
+    pub considered: u64,
+    /// More instructions than the grammar allows.
+    pub too_long: u64,
+    /// Out of the cost budget.
+    pub too_dear: u64,
+    /// Of a structure that was fitted before.
+    pub seen: u64,
+    /// Constants fitted on the subset: the sum of the following four.
+    pub fitted: u64,
+    pub not_finite: u64,
+    /// Given up after the first steps of fitting.
+    pub hopeless: u64,
+    pub no_better: u64,
+    pub admitted: u64,
+    /// Of those admitted, the ones fitted on all samples, since the archive may want them.
+    pub fitted_on_all: u64,
+}
+
+impl Counts {
+    fn add(&mut self, other: &Counts) {
+        self.considered += other.considered;
+        self.too_long += other.too_long;
+        self.too_dear += other.too_dear;
+        self.seen += other.seen;
+        self.fitted += other.fitted;
+        self.not_finite += other.not_finite;
+        self.hopeless += other.hopeless;
+        self.no_better += other.no_better;
+        self.admitted += other.admitted;
+        self.fitted_on_all += other.fitted_on_all;
+    }
+}
+
+/// A search under way; what is needed to go on with it, and nothing else.
+#[derive(Clone, Debug, Serialize, Deserialize)]
+pub struct Search {
+    settings: Settings,
+    generation: u64,
+    islands: Vec<Island>,
+    archive: Archive,
+}
+
+impl Search {
+    pub fn new(settings: Settings) -> Search {
+        let islands = (0..settings.islands).map(|_| Island::new(&settings)).collect();
+        Search { settings, generation: 0, islands, archive: Archive::default() }
+    }
+
+    /// Generations that are done.
+    pub fn generation(&self) -> u64 {
+        self.generation
+    }
+
+    pub fn settings(&self) -> &Settings {
+        &self.settings
+    }
+
+    /// The best found so far, on the whole search split.
+    pub fn archive(&self) -> &Archive {
+        &self.archive
+    }
+
+    /// What became of all candidates so far.
+    pub fn counts(&self) -> Counts {
+        let mut counts = Counts::default();
+        self.islands.iter().for_each(|island| counts.add(&island.counts));
+        counts
+    }
+
+    /// One generation of every island, in parallel on the current thread pool.
+    pub fn advance(&mut self, problem: &Problem) {
+        let (settings, generation) = (&self.settings, self.generation);
+        self.islands.par_iter_mut().enumerate().for_each(|(i, island)| {
+            island.generation(problem, settings, generation * settings.islands as u64 + i as u64);
+        });
+        self.generation += 1;
+        self.barrier();
+    }
+
+    /// What islands learn of each other.
+    fn barrier(&mut self) {
+        for island in &self.islands {
+            self.archive.merge(&island.archive);
+        }
+        for island in &mut self.islands {
+            island.archive.clone_from(&self.archive);
+        }
+        if self.generation.is_multiple_of(self.settings.migration_interval) {
+            let elites: Vec<Vec<_>> = self
+                .islands
+                .iter()
+                .map(|island| island.population.elites().cloned().collect())
+                .collect();
+            let count = self.islands.len();
+            for (i, migrants) in elites.into_iter().enumerate() {
+                self.islands[(i + 1) % count].welcome(migrants);
+            }
+        }
+    }
+
+    /// Starts every island with drafts from elsewhere.
+    pub fn settle(&mut self, drafts: &[Draft], problem: &Problem) {
+        for island in &mut self.islands {
+            for draft in drafts {
+                island.settle(draft, problem, &self.settings);
+            }
+        }
+        self.barrier();
+    }
+}
