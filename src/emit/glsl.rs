@@ -106,9 +106,9 @@ fn is_matrix_or_vector(name: &str) -> bool {
 fn is_opaque_type(name: &str) -> bool {
     let unprefixed = name.strip_prefix(['i', 'u']).unwrap_or(name);
     ["sampler", "image", "texture", "subpassInput"].iter().any(|kind| {
-        unprefixed.strip_prefix(kind).is_some_and(|rest| {
-            rest.is_empty()
-                || rest.starts_with(|c: char| c.is_ascii_uppercase() || c.is_ascii_digit())
+        let rest = unprefixed.strip_prefix(kind);
+        rest.is_some_and(|rest| {
+            !rest.starts_with(|c: char| c.is_ascii_lowercase()) && !rest.contains('_')
         })
     })
 }

@@ -168,7 +168,8 @@ struct Syntax {
     comment: &'static str,
     spelling: fn(Op) -> Spelling,
     /// Whether a name is a keyword, a type, a builtin function, or of a form that may not be
-    /// declared.
+    /// declared. A plain identifier that ends in `_` or `_2` never is, so that each name can be
+    /// replaced by one like it.
     reserved: fn(&str) -> bool,
     literal: fn(f32) -> String,
     /// The declaration of a local that is never changed.

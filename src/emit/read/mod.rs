@@ -4,13 +4,12 @@
 //! that operations are written as, and a `return`. That is more than what is emitted, so that
 //! a snippet may be edited by hand and still be verified.
 
+mod call;
+mod expression;
 mod lex;
 
-use super::body::argument_place;
 use super::{Language, Syntax};
-use crate::op::Op;
 use crate::program::{Arg, Draft, Names, Program, effective};
-use crate::suggest::did_you_mean;
 use lex::{Token, tokens};
 use std::collections::HashMap;
 
@@ -85,9 +84,6 @@ enum Value {
     /// A vector or a structure: its components, and the locals that they are, if they are.
     Several(Vec<(Option<String>, Arg)>),
 }
-
-/// Expressions nested more deeply are refused.
-const MAX_DEPTH: usize = 200;
 
 struct Reader<'a> {
     syntax: &'static Syntax,
@@ -260,7 +256,7 @@ impl Reader<'_> {
         }
     }
 
-    fn components(&mut self, close: char) -> Read<Vec<(Option<String>, Arg)>> {
+    pub(super) fn components(&mut self, close: char) -> Read<Vec<(Option<String>, Arg)>> {
         let mut components = Vec::new();
         loop {
             let name = self.component_name();
@@ -269,240 +265,6 @@ impl Reader<'_> {
                 return Ok(components);
             }
             self.expect(',', &format!("or `{close}` after a component"))?;
-        }
-    }
-
-    fn float(&mut self) -> Read<Arg> {
-        let at = self.offset();
-        let value = self.expression()?;
-        self.as_float(value, at)
-    }
-
-    fn as_float(&self, value: Value, at: usize) -> Read<Arg> {
-        match value {
-            Value::Float(arg) => Ok(arg),
-            _ => self.error(at, "expected a float"),
-        }
-    }
-
-    /// A sum, a comparison of two, or a choice by one.
-    fn expression(&mut self) -> Read<Value> {
-        self.deeper(|reader| {
-            let at = reader.offset();
-            let value = reader.comparison()?;
-            if !reader.take_symbol('?') {
-                return Ok(value);
-            }
-            let Value::Less(a, b) = value else {
-                return reader.error(at, "expected a comparison before `?`");
-            };
-            let x = reader.float()?;
-            reader.expect(':', "between the values to choose from")?;
-            let y = reader.float()?;
-            Ok(Value::Float(reader.draft.push(Op::Select, &[a, b, x, y])))
-        })
-    }
-
-    fn deeper<T>(&mut self, read: impl FnOnce(&mut Self) -> Read<T>) -> Read<T> {
-        if self.depth == MAX_DEPTH {
-            return self.error(
-                self.offset(),
-                format!("nested more than {MAX_DEPTH} deep; name a part of it as a local"),
-            );
-        }
-        self.depth += 1;
-        let result = read(self);
-        self.depth -= 1;
-        result
-    }
-
-    fn comparison(&mut self) -> Read<Value> {
-        let at = self.offset();
-        let left = self.sum()?;
-        let less = self.take_symbol('<');
-        if !less && !self.take_symbol('>') {
-            return Ok(left);
-        }
-        let left = self.as_float(left, at)?;
-        let at = self.offset();
-        let right = self.sum()?;
-        let right = self.as_float(right, at)?;
-        Ok(if less { Value::Less(left, right) } else { Value::Less(right, left) })
-    }
-
-    fn sum(&mut self) -> Read<Value> {
-        self.chain([('+', Op::Add), ('-', Op::Sub)], Self::product)
-    }
-
-    fn product(&mut self) -> Read<Value> {
-        self.chain([('*', Op::Mul), ('/', Op::Div)], Self::negation)
-    }
-
-    /// Operands between operators that associate to the left.
-    fn chain(
-        &mut self,
-        operators: [(char, Op); 2],
-        operand: fn(&mut Self) -> Read<Value>,
-    ) -> Read<Value> {
-        let at = self.offset();
-        let mut value = operand(self)?;
-        while let Some((_, op)) = operators.into_iter().find(|(s, _)| self.take_symbol(*s)) {
-            let left = self.as_float(value, at)?;
-            let at = self.offset();
-            let right = operand(self)?;
-            let right = self.as_float(right, at)?;
-            value = Value::Float(self.draft.push(op, &[left, right]));
-        }
-        Ok(value)
-    }
-
-    fn negation(&mut self) -> Read<Value> {
-        if !self.take_symbol('-') {
-            return self.atom();
-        }
-        if let Some(&Token::Number(number)) = self.peek() {
-            self.next += 1;
-            return self.constant(-number).map(Value::Float);
-        }
-        let at = self.offset();
-        let value = self.deeper(Self::negation)?;
-        let value = self.as_float(value, at)?;
-        Ok(Value::Float(self.draft.push(Op::Neg, &[value])))
-    }
-
-    fn atom(&mut self) -> Read<Value> {
-        let at = self.offset();
-        let Some(token) = self.peek().cloned() else {
-            return self.error(at, "the text ends where a value is expected");
-        };
-        self.next += 1;
-        match token {
-            Token::Number(number) => self.constant(number).map(Value::Float),
-            Token::Bits(bits) => Ok(Value::Bits(bits)),
-            Token::Symbol('(') => {
-                let value = self.expression()?;
-                self.expect(')', "to close the parenthesis")?;
-                Ok(value)
-            }
-            Token::Name(name) if self.take_symbol('(') => self.call(&name, at),
-            Token::Name(name) => match self.values.get(&name) {
-                Some(value) => Ok(value.clone()),
-                None => {
-                    let hint = did_you_mean(&name, self.values.keys().map(String::as_str));
-                    self.error(at, format!("`{name}` is no parameter and no local{hint}"))
-                }
-            },
-            Token::Symbol(symbol) => self.error(at, format!("expected a value, found `{symbol}`")),
-        }
-    }
-
-    fn constant(&mut self, value: f32) -> Read<Arg> {
-        if self.draft.consts.len() >= usize::from(u16::MAX) {
-            return self.error(self.offset(), "more than 65535 constants");
-        }
-        Ok(self.draft.constant(value))
-    }
-
-    fn call(&mut self, name: &str, at: usize) -> Read<Value> {
-        let is_vector = ["float2", "float3", "float4", "vec2", "vec3", "vec4"].contains(&name);
-        if is_vector || self.structure.as_deref() == Some(name) {
-            return self.components(')').map(Value::Several);
-        }
-        let mut args = vec![self.expression()?];
-        while self.take_symbol(',') {
-            args.push(self.expression()?);
-        }
-        self.expect(')', "after the arguments")?;
-        match args.as_slice() {
-            [Value::Bits(bits)] if name == self.syntax.float_of_bits => {
-                self.float_of_bits(*bits).map(Value::Float)
-            }
-            // A conversion, of what is a float here.
-            [Value::Float(arg)] if name == "float" || name == "f32" => Ok(Value::Float(*arg)),
-            _ => self.operation(name, &args, at),
-        }
-    }
-
-    /// A constant of a program is finite; what is not is computed from such.
-    fn float_of_bits(&mut self, bits: u32) -> Read<Arg> {
-        let value = f32::from_bits(bits);
-        if value.is_finite() {
-            return self.constant(value);
-        }
-        let zero = self.constant(0.0f32.copysign(value))?;
-        Ok(match value.is_nan() {
-            true => self.draft.push(Op::Div, &[zero, zero]),
-            false => self.draft.push(Op::Rcp, &[zero]),
-        })
-    }
-
-    fn operation(&mut self, name: &str, args: &[Value], at: usize) -> Read<Value> {
-        let calls = || Op::ALL.iter().filter_map(|&op| Some((op, call_of(self.syntax, op)?)));
-        let named = calls().filter(|(_, call)| call.name == name);
-        let found = named.clone().find_map(|(op, call)| Some((op, self.matched(&call, args)?)));
-        match found {
-            Some((op, args)) => Ok(Value::Float(self.draft.push(op, &args))),
-            None if named.count() > 0 => {
-                self.error(at, format!("`{name}` is not read with these arguments"))
-            }
-            None => {
-                let known: Vec<&str> = calls().map(|(_, call)| call.name).collect();
-                let hint = did_you_mean(name, known);
-                self.error(at, format!("`{name}` is no function that can be read{hint}"))
-            }
-        }
-    }
-
-    /// The operation's arguments, in its order.
-    fn matched(&self, call: &Call, values: &[Value]) -> Option<Vec<Arg>> {
-        let mut args = [None; crate::op::MAX_ARITY];
-        for (place, value) in call.places.iter().zip(values) {
-            match (place, value) {
-                (Place::Argument(i), Value::Float(arg)) => args[*i] = Some(*arg),
-                (Place::Less(i, j), Value::Less(a, b)) => {
-                    (args[*i], args[*j]) = (Some(*a), Some(*b));
-                }
-                (Place::Literal(literal), Value::Float(Arg::Const(i)))
-                    if self.draft.consts[usize::from(*i)] == *literal => {}
-                _ => return None,
-            }
-        }
-        (call.places.len() == values.len()).then(|| args.into_iter().flatten().collect())
-    }
-}
-
-/// An operation that is written as a function.
-struct Call {
-    name: &'static str,
-    places: Vec<Place>,
-}
-
-/// What stands between two commas of a call.
-enum Place {
-    Argument(usize),
-    Less(usize, usize),
-    Literal(f32),
-}
-
-/// The operation's spelling, if that is a call.
-fn call_of(syntax: &Syntax, op: Op) -> Option<Call> {
-    let template = (syntax.spelling)(op).template;
-    let template = match template.strip_prefix("float(") {
-        Some(converted) => converted.strip_suffix(')')?,
-        None => template,
-    };
-    let (name, rest) = template.split_once('(')?;
-    let is_name = !name.is_empty() && name.bytes().all(|b| b.is_ascii_alphanumeric());
-    let places = rest.strip_suffix(')').filter(|_| is_name)?;
-    Some(Call { name, places: places.split(", ").map(place).collect::<Option<_>>()? })
-}
-
-fn place(text: &str) -> Option<Place> {
-    let argument = |text: &str| Some(argument_place(text.strip_prefix('{')?.strip_suffix('}')?).0);
-    match text.split_once(" < ") {
-        Some((a, b)) => Some(Place::Less(argument(a)?, argument(b)?)),
-        None => {
-            argument(text).map(Place::Argument).or_else(|| Some(Place::Literal(text.parse().ok()?)))
         }
     }
 }
