@@ -234,12 +234,9 @@ const fn atom(template: &'static str) -> Spelling {
 
 /// The shortest decimal that reads back as `value` and that no compiler takes for an integer.
 fn decimal(value: f32) -> String {
-    // The shortest decimals of the largest number round to it only in f32; read in higher
-    // precision first, as WGSL does, they are out of range.
-    let text = match value.abs() == f32::MAX {
-        true => format!("{:e}", f64::from(value)),
-        false => format_constant(value),
-    };
+    // The shortest decimal of the largest number, …35e38, lies above it: out of range where it
+    // is read in higher precision first, as in WGSL.
+    let text = format_constant(value).replace("3.4028235e38", "3.4028234e38");
     if text.contains(['.', 'e']) { text } else { text + ".0" }
 }
 
