@@ -101,8 +101,12 @@ mod tests {
         let offered = [(3.0, 0.5), (1.0, 0.9), (2.0, 0.95), (3.0, 0.4), (2.5, 0.6), (9.0, 0.4)];
         let mut forwards = Archive::default();
         let mut backwards = Archive::default();
-        offered.iter().for_each(|&(cost, loss)| drop(forwards.offer(member(cost, loss))));
-        offered.iter().rev().for_each(|&(cost, loss)| drop(backwards.offer(member(cost, loss))));
+        for &(cost, loss) in &offered {
+            forwards.offer(member(cost, loss));
+        }
+        for &(cost, loss) in offered.iter().rev() {
+            backwards.offer(member(cost, loss));
+        }
         let costs: Vec<f64> = forwards.members().iter().map(|m| m.cost).collect();
         assert_eq!(costs, [1.0, 2.5, 3.0]);
         assert_eq!(forwards, backwards);

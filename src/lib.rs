@@ -17,6 +17,8 @@ pub mod fit;
 pub mod archive;
 pub mod search;
 
+pub mod emit;
+
 pub mod microfacet;
 pub mod quadrature;
 pub mod targets;

@@ -124,7 +124,8 @@ fn text_means_what_the_grammar_says() {
     let names = Names::new(["x", "y"], ["f"]);
     let value = |text: &str, x: f32, y: f32| parse(text, &names).unwrap().evaluate(&[x, y])[0];
     assert_eq!(value("f = -x^2", 3.0, 0.0), -9.0);
-    assert_eq!(value("f = 2^3^1", 0.0, 0.0), 8.0);
+    assert_eq!(value("f = 2*x^3/3", 3.0, 0.0), 18.0);
+    assert_eq!(value("f = x^2^3", 2.0, 0.0), 256.0);
     assert_eq!(value("f = x - y - 1", 5.0, 2.0), 2.0);
     assert_eq!(value("f = x/y/2", 8.0, 2.0), 2.0);
     assert_eq!(value("t = x + 1; f = t*t # a square", 2.0, 0.0), 9.0);
@@ -154,6 +155,8 @@ fn errors_say_where_and_what_was_meant() {
         ("bias = 1e99", "too large"),
         ("bias = add(1, 2)", "no function form"),
         ("bias = roughness ? 1", "no meaning"),
+        (&format!("bias = {}", "(".repeat(100_000)), "nested more than"),
+        (&format!("bias = {}1", "-".repeat(100_000)), "nested more than"),
         ("t = 1;\nbias = nope", "line 2, column 8"),
     ] {
         let message = error(text);

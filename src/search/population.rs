@@ -66,10 +66,6 @@ impl Population {
         true
     }
 
-    pub fn is_empty(&self) -> bool {
-        self.buckets.iter().all(Vec::is_empty)
-    }
-
     /// A bucket that is not empty, each as likely; of its individuals the better ones more.
     pub fn pick(&self, rng: &mut ChaCha8Rng) -> Option<&Individual> {
         let occupied = self.buckets.iter().filter(|bucket| !bucket.is_empty()).count();

@@ -91,6 +91,7 @@ pub fn parse_template(text: &str, scope: Scope) -> Result<Parsed, ParseError> {
         text,
         tokens: tokens(text)?,
         next: 0,
+        depth: 0,
         draft: Draft::default(),
         names: match scope {
             Scope::Dataset(names) => names.clone(),
@@ -109,6 +110,7 @@ struct Parser<'a> {
     text: &'a str,
     tokens: Vec<(usize, Token)>,
     next: usize,
+    depth: usize,
     draft: Draft,
     names: Names,
     open: bool,
@@ -116,6 +118,9 @@ struct Parser<'a> {
     last_assigned: Option<String>,
     free: Vec<FreeConstant>,
 }
+
+/// Parentheses, calls and signs that may stand inside one another.
+const MAX_DEPTH: usize = 200;
 
 type Parse<T> = Result<T, ParseError>;
 
@@ -219,7 +224,21 @@ impl Parser<'_> {
         }
     }
 
+    /// Where every nesting passes through.
     fn negation(&mut self) -> Parse<Arg> {
+        if self.depth == MAX_DEPTH {
+            return self.error(
+                self.offset(),
+                format!("nested more than {MAX_DEPTH} deep; give inner parts names of their own"),
+            );
+        }
+        self.depth += 1;
+        let value = self.signed_power();
+        self.depth -= 1;
+        value
+    }
+
+    fn signed_power(&mut self) -> Parse<Arg> {
         if self.take_symbol('+') {
             return self.negation();
         }
@@ -250,20 +269,22 @@ impl Parser<'_> {
         self.repeated_product(base, exponent, at)
     }
 
-    /// A literal, itself perhaps raised to a power: `^` is right-associative.
+    /// The literal after `^`, itself perhaps raised to a power: `^` is right-associative.
     fn exponent(&mut self) -> Parse<f32> {
-        let at = self.offset();
-        let Some(Token::Number(value)) = self.peek().cloned() else {
-            return self.error(
-                at,
-                "an exponent after `^` is 2, 3, 4, 5, 6 or 8; write `pow(x, y)` for others",
-            );
-        };
-        self.next += 1;
-        if self.take_symbol('^') {
-            return Ok(value.powf(self.exponent()?));
+        let mut tower = Vec::new();
+        loop {
+            let Some(Token::Number(value)) = self.peek().cloned() else {
+                return self.error(
+                    self.offset(),
+                    "an exponent after `^` is 2, 3, 4, 5, 6 or 8; write `pow(x, y)` for others",
+                );
+            };
+            self.next += 1;
+            tower.push(value);
+            if !self.take_symbol('^') {
+                return Ok(tower.into_iter().rev().fold(1.0, |power, base| base.powf(power)));
+            }
         }
-        Ok(value)
     }
 
     fn repeated_product(&mut self, x: Arg, exponent: f32, at: usize) -> Parse<Arg> {

@@ -1,0 +1,137 @@
+//! GLSL: what `#version 300 es` (WebGL2) and desktop versions have in common.
+
+use super::{Signature, Spelling, Syntax, atom, decimal, is_word, negation, product, select, sum};
+use crate::op::Op;
+
+pub(super) static SYNTAX: Syntax = Syntax {
+    name: "glsl",
+    aliases: &["opengl", "webgl", "webgl2", "essl", "gl"],
+    extension: "glsl",
+    comment: "//",
+    spelling,
+    reserved,
+    literal: decimal,
+    // In ES 3.00 the initialiser of a `const` must be constant.
+    local: |name, value| format!("float {name} = {value};"),
+    non_finite: |name, _, bits| vec![format!("float {name} = uintBitsToFloat({bits:#010x}u);")],
+    open,
+    close,
+    float_of_bits: "uintBitsToFloat",
+};
+
+const TYPES: [&str; 4] = ["float", "vec2", "vec3", "vec4"];
+
+fn spelling(op: Op) -> Spelling {
+    match op {
+        Op::Add => sum("{a+} + {b*}"),
+        Op::Sub => sum("{a+} - {b*}"),
+        Op::Mul => product("{a*}*{b-}"),
+        Op::Div => product("{a*}/{b-}"),
+        Op::Neg => negation("-{a!}"),
+        Op::Abs => atom("abs({a})"),
+        Op::Min => atom("min({a}, {b})"),
+        Op::Max => atom("max({a}, {b})"),
+        Op::Saturate => atom("clamp({a}, 0.0, 1.0)"),
+        // There is no `fma` before ES 3.20 and GLSL 4.00.
+        Op::Mad => sum("{a*}*{b-} + {c*}"),
+        Op::Rcp => product("1.0/{a-}"),
+        Op::Sqrt => atom("sqrt({a})"),
+        Op::Rsqrt => atom("inversesqrt({a})"),
+        Op::Exp2 => atom("exp2({a})"),
+        Op::Log2 => atom("log2({a})"),
+        Op::Exp => atom("exp({a})"),
+        Op::Log => atom("log({a})"),
+        Op::Pow => atom("pow({a}, {b})"),
+        Op::Sin => atom("sin({a})"),
+        Op::Cos => atom("cos({a})"),
+        Op::Tan => atom("tan({a})"),
+        Op::Asin => atom("asin({a})"),
+        Op::Acos => atom("acos({a})"),
+        Op::Atan => atom("atan({a})"),
+        Op::Atan2 => atom("atan({a}, {b})"),
+        Op::Tanh => atom("tanh({a})"),
+        Op::Lerp => atom("mix({a}, {b}, {c})"),
+        Op::Step => atom("step({a}, {b})"),
+        Op::Select => select("({a+} < {b+}) ? {c+} : {d+}"),
+        Op::Floor => atom("floor({a})"),
+        Op::Fract => atom("fract({a})"),
+        Op::Sign => atom("sign({a})"),
+    }
+}
+
+fn open(signature: &Signature) -> Vec<String> {
+    let Signature { function, inputs, outputs, structure, .. } = signature;
+    let inputs: Vec<String> = inputs.iter().map(|name| format!("float {name}")).collect();
+    let mut lines = Vec::new();
+    let returned = TYPES.get(outputs.len() - 1).copied().unwrap_or(structure);
+    if returned == structure {
+        lines.push(format!("struct {structure} {{"));
+        lines.extend(outputs.iter().map(|name| format!("    float {name};")));
+        lines.push("};".to_owned());
+    }
+    lines.push(format!("{returned} {function}({}) {{", inputs.join(", ")));
+    lines
+}
+
+fn close(signature: &Signature) -> Vec<String> {
+    let Signature { outputs, structure, .. } = signature;
+    let values = outputs.join(", ");
+    let returned = match TYPES.get(outputs.len() - 1) {
+        Some(&"float") => format!("    return {values};"),
+        Some(vector) => format!("    return {vector}({values});"),
+        None => format!("    return {structure}({values});"),
+    };
+    vec![returned, "}".to_owned()]
+}
+
+fn reserved(name: &str) -> bool {
+    name.starts_with("gl_")
+        || name.contains("__")
+        || is_word(KEYWORDS, name)
+        || is_word(FUNCTIONS, name)
+        || is_opaque_type(name)
+        || is_matrix_or_vector(name)
+}
+
+/// `vec2`, `ivec4`, `hvec3`, `mat3`, `dmat4x2`, and so on.
+fn is_matrix_or_vector(name: &str) -> bool {
+    let unprefixed = name.strip_prefix(['i', 'u', 'b', 'd', 'h', 'f']).unwrap_or(name);
+    let size = unprefixed.strip_prefix("vec").or_else(|| unprefixed.strip_prefix("mat"));
+    size.is_some_and(|size| {
+        matches!(size.as_bytes(), [b'2'..=b'4'] | [b'2'..=b'4', b'x', b'2'..=b'4'])
+    })
+}
+
+/// `sampler2D`, `usampler3D`, `imageCubeArray`, `textureBuffer`, and so on.
+fn is_opaque_type(name: &str) -> bool {
+    let unprefixed = name.strip_prefix(['i', 'u']).unwrap_or(name);
+    ["sampler", "image", "texture", "subpassInput"].iter().any(|kind| {
+        let rest = unprefixed.strip_prefix(kind);
+        rest.is_some_and(|rest| {
+            !rest.starts_with(|c: char| c.is_ascii_lowercase()) && !rest.contains('_')
+        })
+    })
+}
+
+/// Keywords and reserved words of ES 3.00, ES 3.20 and GLSL 4.60.
+const KEYWORDS: &str = "active asm atomic_uint attribute bool break buffer case cast centroid \
+    class coherent common const continue default discard do double else enum extern external false \
+    filter fixed flat float for fvec2 fvec3 fvec4 goto half highp if in inline inout input int \
+    interface invariant isampler layout long lowp main mediump namespace noinline noperspective \
+    out output packed partition patch precise precision public readonly resource restrict return \
+    row_major sample shared short sizeof smooth static struct subroutine superp switch template \
+    this true typedef uint uniform union unsigned using varying void volatile while writeonly";
+
+const FUNCTIONS: &str = "abs acos acosh all any asin asinh atan atanh barrier bitCount \
+    bitfieldExtract bitfieldInsert bitfieldReverse ceil clamp cos cosh cross dFdx dFdxCoarse \
+    dFdxFine dFdy dFdyCoarse dFdyFine degrees determinant distance dot equal exp exp2 faceforward \
+    findLSB findMSB floatBitsToInt floatBitsToUint floor fma fract frexp ftransform fwidth \
+    fwidthCoarse fwidthFine greaterThan greaterThanEqual groupMemoryBarrier imulExtended \
+    intBitsToFloat interpolateAtCentroid interpolateAtOffset interpolateAtSample inverse \
+    inversesqrt isinf isnan ldexp length lessThan lessThanEqual log log2 matrixCompMult max \
+    memoryBarrier min mix mod modf noise1 noise2 noise3 noise4 normalize not notEqual outerProduct \
+    packDouble2x32 packHalf2x16 packSnorm2x16 packSnorm4x8 packUnorm2x16 packUnorm4x8 pow radians \
+    reflect refract round roundEven shadow1D shadow2D sign sin sinh smoothstep sqrt step tan tanh \
+    texelFetch texelFetchOffset transpose trunc uaddCarry uintBitsToFloat umulExtended \
+    unpackDouble2x32 unpackHalf2x16 unpackSnorm2x16 unpackSnorm4x8 unpackUnorm2x16 unpackUnorm4x8 \
+    usubBorrow";

@@ -1,0 +1,135 @@
+//! HLSL, for shader model 5 and later.
+
+use super::{Signature, Spelling, Syntax, atom, decimal, is_word, negation, product, select, sum};
+use crate::op::Op;
+
+pub(super) static SYNTAX: Syntax = Syntax {
+    name: "hlsl",
+    aliases: &["directx", "dx", "fx"],
+    extension: "hlsl",
+    comment: "//",
+    spelling,
+    reserved,
+    literal: decimal,
+    local: |name, value| format!("const float {name} = {value};"),
+    non_finite: |name, _, bits| vec![format!("const float {name} = asfloat({bits:#010x});")],
+    open,
+    close,
+    float_of_bits: "asfloat",
+};
+
+const TYPES: [&str; 4] = ["float", "float2", "float3", "float4"];
+
+fn spelling(op: Op) -> Spelling {
+    match op {
+        Op::Add => sum("{a+} + {b*}"),
+        Op::Sub => sum("{a+} - {b*}"),
+        Op::Mul => product("{a*}*{b-}"),
+        Op::Div => product("{a*}/{b-}"),
+        Op::Neg => negation("-{a!}"),
+        Op::Abs => atom("abs({a})"),
+        Op::Min => atom("min({a}, {b})"),
+        Op::Max => atom("max({a}, {b})"),
+        Op::Saturate => atom("saturate({a})"),
+        // DXC takes `fma` on doubles only.
+        Op::Mad => atom("mad({a}, {b}, {c})"),
+        Op::Rcp => atom("rcp({a})"),
+        Op::Sqrt => atom("sqrt({a})"),
+        Op::Rsqrt => atom("rsqrt({a})"),
+        Op::Exp2 => atom("exp2({a})"),
+        Op::Log2 => atom("log2({a})"),
+        Op::Exp => atom("exp({a})"),
+        Op::Log => atom("log({a})"),
+        Op::Pow => atom("pow({a}, {b})"),
+        Op::Sin => atom("sin({a})"),
+        Op::Cos => atom("cos({a})"),
+        Op::Tan => atom("tan({a})"),
+        Op::Asin => atom("asin({a})"),
+        Op::Acos => atom("acos({a})"),
+        Op::Atan => atom("atan({a})"),
+        Op::Atan2 => atom("atan2({a}, {b})"),
+        Op::Tanh => atom("tanh({a})"),
+        Op::Lerp => atom("lerp({a}, {b}, {c})"),
+        Op::Step => atom("step({a}, {b})"),
+        Op::Select => select("({a+} < {b+}) ? {c+} : {d+}"),
+        Op::Floor => atom("floor({a})"),
+        Op::Fract => atom("frac({a})"),
+        // `sign` is an int: the quotient of two would be rounded.
+        Op::Sign => atom("float(sign({a}))"),
+    }
+}
+
+fn open(signature: &Signature) -> Vec<String> {
+    let Signature { function, inputs, outputs, structure, .. } = signature;
+    let inputs: Vec<String> = inputs.iter().map(|name| format!("float {name}")).collect();
+    let mut lines = Vec::new();
+    let returned = TYPES.get(outputs.len() - 1).copied().unwrap_or(structure);
+    if returned == structure {
+        lines.push(format!("struct {structure} {{"));
+        lines.extend(outputs.iter().map(|name| format!("    float {name};")));
+        lines.push("};".to_owned());
+    }
+    lines.push(format!("{returned} {function}({}) {{", inputs.join(", ")));
+    lines
+}
+
+fn close(signature: &Signature) -> Vec<String> {
+    let Signature { outputs, structure, result, .. } = signature;
+    let values = outputs.join(", ");
+    let mut lines = match TYPES.get(outputs.len() - 1) {
+        Some(&"float") => vec![format!("    return {values};")],
+        Some(vector) => vec![format!("    return {vector}({values});")],
+        None => vec![
+            format!("    const {structure} {result} = {{ {values} }};"),
+            format!("    return {result};"),
+        ],
+    };
+    lines.push("}".to_owned());
+    lines
+}
+
+/// Some keywords may be written in any case (`Texture2D`, `TECHNIQUE`), so none is told by it.
+fn reserved(name: &str) -> bool {
+    let name = name.to_ascii_lowercase();
+    is_word(KEYWORDS, &name) || is_word(FUNCTIONS, &name) || is_numeric_type(&name)
+}
+
+/// `float`, `float3`, `float3x2`, and so on.
+fn is_numeric_type(name: &str) -> bool {
+    let scalar = name.trim_end_matches(|c: char| ('1'..='4').contains(&c) || c == 'x');
+    // The digits of `int16_t` are part of its name, those of `min16float4` only the last.
+    is_word(SCALARS, scalar) || is_word(SCALARS, name)
+}
+
+const SCALARS: &str = "bool int uint dword float half double min16float min10float min16int \
+    min12int min16uint float16_t float32_t float64_t int16_t int32_t int64_t uint16_t uint32_t \
+    uint64_t";
+
+const KEYWORDS: &str = "appendstructuredbuffer asm asm_fragment auto blendstate break buffer \
+    byteaddressbuffer case catch cbuffer centroid char class column_major compile \
+    compile_fragment compileshader computeshader const const_cast constantbuffer \
+    consumestructuredbuffer continue default delete depthstencilstate depthstencilview discard do \
+    domainshader dynamic_cast else enum explicit export extern false for friend fxgroup \
+    geometryshader globallycoherent goto groupshared hullshader if in indices inline inout \
+    inputpatch interface line lineadj linear linestream long main matrix mutable namespace new \
+    nointerpolation noperspective null operator out outputpatch packoffset pass payload \
+    pixelfragment pixelshader point pointstream precise primitives private protected public \
+    rasterizerorderedbuffer rasterizerstate register reinterpret_cast rendertargetview return \
+    row_major rwbuffer rwbyteaddressbuffer rwstructuredbuffer rwtexture1d rwtexture1darray \
+    rwtexture2d rwtexture2darray rwtexture3d sample sampler sampler1d sampler2d sampler3d \
+    sampler_state samplercomparisonstate samplercube samplerstate shared short signed sizeof \
+    snorm stateblock stateblock_state static static_cast string struct structuredbuffer switch \
+    tbuffer technique technique10 technique11 template texture texture1d texture1darray texture2d \
+    texture2darray texture2dms texture2dmsarray texture3d texturecube texturecubearray this throw \
+    triangle triangleadj trianglestream true try typedef typename uniform union unorm unroll \
+    unsigned using vector vertexfragment vertexshader vertices virtual void volatile while";
+
+const FUNCTIONS: &str = "abort abs acos all and any asdouble asfloat asin asint asuint atan atan2 \
+    ceil clamp clip cos cosh countbits cross d3dcolortoubyte4 ddx ddx_coarse ddx_fine ddy \
+    ddy_coarse ddy_fine degrees determinant distance dot dst errorf exp exp2 f16tof32 f32tof16 \
+    faceforward firstbithigh firstbitlow floor fma fmod frac frexp fwidth isfinite isinf isnan \
+    isnormal ldexp length lerp lit log log10 log2 mad max min modf msad4 mul noise normalize or \
+    pow printf radians rcp reflect refract reversebits round rsqrt saturate select sign sin sincos \
+    sinh smoothstep sqrt step tan tanh tex1d tex1dbias tex1dgrad tex1dlod tex1dproj tex2d \
+    tex2dbias tex2dgrad tex2dlod tex2dproj tex3d tex3dbias tex3dgrad tex3dlod tex3dproj texcube \
+    texcubebias texcubegrad texcubelod texcubeproj transpose trunc";

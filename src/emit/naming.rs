@@ -1,0 +1,133 @@
+//! Names that a language allows and that do not collide.
+
+use super::Signature;
+use crate::program::Names;
+use std::collections::HashSet;
+
+/// The names of one function, and those already taken.
+pub(super) struct Naming<'a> {
+    reserved: fn(&str) -> bool,
+    taken: HashSet<String>,
+    function: &'a str,
+    names: &'a Names,
+    /// The function's name, the inputs', the outputs'.
+    written: Vec<String>,
+    temporaries: usize,
+}
+
+impl<'a> Naming<'a> {
+    pub fn new(reserved: fn(&str) -> bool, function: &'a str, names: &'a Names) -> Naming<'a> {
+        let mut naming = Naming {
+            reserved,
+            taken: HashSet::new(),
+            function,
+            names,
+            written: Vec::new(),
+            temporaries: 0,
+        };
+        // A renamed name must not take one that another may keep.
+        let kept: Vec<bool> = naming.wanted().iter().map(|name| naming.keep(name)).collect();
+        naming.written = (naming.wanted().iter().zip(kept))
+            .map(|(name, kept)| if kept { (*name).to_owned() } else { naming.rename(name) })
+            .collect();
+        naming
+    }
+
+    fn wanted(&self) -> Vec<&'a str> {
+        let columns = self.names.inputs.iter().chain(&self.names.outputs);
+        std::iter::once(self.function).chain(columns.map(String::as_str)).collect()
+    }
+
+    pub fn signature(&mut self) -> Signature {
+        let function = self.written[0].clone();
+        let inputs = self.written[1..=self.names.inputs.len()].to_vec();
+        let outputs = self.written[1 + self.names.inputs.len()..].to_vec();
+        let structure = self.fresh(&format!("{function}_outputs"));
+        let result = self.fresh("result");
+        Signature { function, inputs, outputs, structure, result }
+    }
+
+    /// A sentence for each name that could not be kept.
+    pub fn renamed(&self) -> Vec<String> {
+        let kinds = std::iter::once("function").chain(std::iter::repeat("column"));
+        let names = self.wanted().into_iter().zip(&self.written).zip(kinds);
+        names
+            .filter(|((wanted, written), _)| wanted != written)
+            .map(|((wanted, written), kind)| format!("{written} is the {kind} {wanted}"))
+            .collect()
+    }
+
+    /// The next of `t0`, `t1`, … that is free.
+    pub fn temporary(&mut self) -> String {
+        loop {
+            let name = format!("t{}", self.temporaries);
+            self.temporaries += 1;
+            if self.keep(&name) {
+                return name;
+            }
+        }
+    }
+
+    /// `name`, or one like it that is free.
+    pub fn fresh(&mut self, name: &str) -> String {
+        if self.keep(name) { name.to_owned() } else { self.rename(name) }
+    }
+
+    /// Takes `name` as it is, if that is allowed.
+    fn keep(&mut self, name: &str) -> bool {
+        is_identifier(name) && !(self.reserved)(name) && self.taken.insert(name.to_owned())
+    }
+
+    fn rename(&mut self, name: &str) -> String {
+        let base = plain(name);
+        let first = format!("{base}_");
+        let mut candidates = [base.clone(), first]
+            .into_iter()
+            .chain((2u32..).map(|number| format!("{base}_{number}")));
+        candidates.find(|candidate| self.keep(candidate)).expect("some number is free")
+    }
+}
+
+fn is_identifier(name: &str) -> bool {
+    name.starts_with(|c: char| c.is_ascii_alphabetic() || c == '_')
+        && name.bytes().all(|b| b.is_ascii_alphanumeric() || b == b'_')
+}
+
+/// An identifier like `name`, of a form that every language allows: beginning with a letter but
+/// not with `gl_`, without a double underscore.
+fn plain(name: &str) -> String {
+    let words: Vec<&str> =
+        name.split(|c: char| !c.is_ascii_alphanumeric()).filter(|word| !word.is_empty()).collect();
+    let name = words.join("_");
+    match name.chars().next() {
+        None => "x".to_owned(),
+        Some(first) if first.is_ascii_digit() || name.starts_with("gl_") => format!("x_{name}"),
+        Some(_) => name,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn any_text_becomes_a_plain_identifier() {
+        for (name, expected) in [
+            ("N·V", "N_V"),
+            ("a__b_", "a_b"),
+            ("gl_x", "x_gl_x"),
+            ("2d", "x_2d"),
+            ("roughness (alpha)", "roughness_alpha"),
+        ] {
+            assert_eq!(plain(name), expected);
+        }
+    }
+
+    #[test]
+    fn a_renamed_name_takes_none_that_another_may_keep() {
+        let names = Names::new(["cos", "cos_", "_", ""], ["cos_2", "cos"]);
+        let reserved = |name: &str| name == "cos" || name == "_";
+        let naming = Naming::new(reserved, "cos", &names);
+        assert_eq!(naming.written, ["cos_3", "cos_4", "cos_", "x", "x_", "cos_2", "cos_5"]);
+    }
+}

@@ -1,0 +1,136 @@
+//! WGSL.
+
+use super::{Signature, Spelling, Syntax, atom, decimal, is_word, negation, product, sum};
+use crate::op::Op;
+
+pub(super) static SYNTAX: Syntax = Syntax {
+    name: "wgsl",
+    aliases: &["webgpu", "wgpu"],
+    extension: "wgsl",
+    comment: "//",
+    spelling,
+    reserved,
+    literal: decimal,
+    local: |name, value| format!("let {name} = {value};"),
+    // An infinite constant expression is an error; what a variable holds is no constant.
+    non_finite: |name, bits_name, bits| {
+        vec![
+            format!("var {bits_name} = {bits:#010x}u;"),
+            format!("let {name} = bitcast<f32>({bits_name});"),
+        ]
+    },
+    open,
+    close,
+    float_of_bits: "bitcast",
+};
+
+const TYPES: [&str; 4] = ["f32", "vec2<f32>", "vec3<f32>", "vec4<f32>"];
+
+fn spelling(op: Op) -> Spelling {
+    match op {
+        Op::Add => sum("{a+} + {b*}"),
+        Op::Sub => sum("{a+} - {b*}"),
+        Op::Mul => product("{a*}*{b-}"),
+        Op::Div => product("{a*}/{b-}"),
+        Op::Neg => negation("-{a!}"),
+        Op::Abs => atom("abs({a})"),
+        Op::Min => atom("min({a}, {b})"),
+        Op::Max => atom("max({a}, {b})"),
+        Op::Saturate => atom("saturate({a})"),
+        Op::Mad => atom("fma({a}, {b}, {c})"),
+        Op::Rcp => product("1.0/{a-}"),
+        Op::Sqrt => atom("sqrt({a})"),
+        Op::Rsqrt => atom("inverseSqrt({a})"),
+        Op::Exp2 => atom("exp2({a})"),
+        Op::Log2 => atom("log2({a})"),
+        Op::Exp => atom("exp({a})"),
+        Op::Log => atom("log({a})"),
+        Op::Pow => atom("pow({a}, {b})"),
+        Op::Sin => atom("sin({a})"),
+        Op::Cos => atom("cos({a})"),
+        Op::Tan => atom("tan({a})"),
+        Op::Asin => atom("asin({a})"),
+        Op::Acos => atom("acos({a})"),
+        Op::Atan => atom("atan({a})"),
+        Op::Atan2 => atom("atan2({a}, {b})"),
+        Op::Tanh => atom("tanh({a})"),
+        Op::Lerp => atom("mix({a}, {b}, {c})"),
+        Op::Step => atom("step({a}, {b})"),
+        // The value where the condition is false comes first.
+        Op::Select => atom("select({d}, {c}, {a+} < {b+})"),
+        Op::Floor => atom("floor({a})"),
+        Op::Fract => atom("fract({a})"),
+        Op::Sign => atom("sign({a})"),
+    }
+}
+
+fn open(signature: &Signature) -> Vec<String> {
+    let Signature { function, inputs, outputs, structure, .. } = signature;
+    let inputs: Vec<String> = inputs.iter().map(|name| format!("{name}: f32")).collect();
+    let mut lines = Vec::new();
+    let returned = TYPES.get(outputs.len() - 1).copied().unwrap_or(structure);
+    if returned == structure {
+        lines.push(format!("struct {structure} {{"));
+        lines.extend(outputs.iter().map(|name| format!("    {name}: f32,")));
+        lines.push("}".to_owned());
+    }
+    lines.push(format!("fn {function}({}) -> {returned} {{", inputs.join(", ")));
+    lines
+}
+
+fn close(signature: &Signature) -> Vec<String> {
+    let Signature { outputs, structure, .. } = signature;
+    let values = outputs.join(", ");
+    let returned = match TYPES.get(outputs.len() - 1) {
+        Some(&"f32") => format!("    return {values};"),
+        Some(vector) => format!("    return {vector}({values});"),
+        None => format!("    return {structure}({values});"),
+    };
+    vec![returned, "}".to_owned()]
+}
+
+fn reserved(name: &str) -> bool {
+    name == "_"
+        || name.starts_with("__")
+        || is_word(KEYWORDS, name)
+        || is_word(TYPE_NAMES, name)
+        || is_word(FUNCTIONS, name)
+}
+
+/// The keywords and the words reserved for later.
+const KEYWORDS: &str = "alias break case const const_assert continue continuing default diagnostic \
+    discard else enable false fn for if let loop override requires return struct switch true var \
+    while main NULL Self abstract active alignas alignof as asm asm_fragment async attribute auto \
+    await become cast catch class co_await co_return co_yield coherent column_major common compile \
+    compile_fragment concept const_cast consteval constexpr constinit crate debugger decltype \
+    delete demote demote_to_helper do dynamic_cast enum explicit export extends extern external \
+    fallthrough filter final finally friend from fxgroup get goto groupshared highp impl \
+    implements import inline instanceof interface layout lowp macro macro_rules match mediump meta \
+    mod module move mut mutable namespace new nil noexcept noinline nointerpolation non_coherent \
+    noncoherent noperspective null nullptr of operator package packoffset partial pass patch \
+    pixelfragment precise precision premerge priv protected pub public readonly ref regardless \
+    register reinterpret_cast require resource restrict self set shared sizeof smooth snorm static \
+    static_assert static_cast std subroutine super target template this thread_local throw trait \
+    try type typedef typeid typename typeof union unless unorm unsafe unsized use using varying \
+    virtual volatile wgsl where with writeonly yield";
+
+const TYPE_NAMES: &str = "bool i32 u32 f32 f16 i64 u64 f64 array atomic ptr sampler \
+    sampler_comparison vec2 vec3 vec4 vec2i vec3i vec4i vec2u vec3u vec4u vec2f vec3f vec4f vec2h \
+    vec3h vec4h mat2x2 mat2x3 mat2x4 mat3x2 mat3x3 mat3x4 mat4x2 mat4x3 mat4x4 mat2x2f mat2x3f \
+    mat2x4f mat3x2f mat3x3f mat3x4f mat4x2f mat4x3f mat4x4f mat2x2h mat2x3h mat2x4h mat3x2h \
+    mat3x3h mat3x4h mat4x2h mat4x3h mat4x4h texture_1d texture_2d texture_2d_array texture_3d \
+    texture_cube texture_cube_array texture_multisampled_2d texture_depth_multisampled_2d \
+    texture_external texture_storage_1d texture_storage_2d texture_storage_2d_array \
+    texture_storage_3d texture_depth_2d texture_depth_2d_array texture_depth_cube \
+    texture_depth_cube_array binding_array acceleration_structure ray_query function private \
+    workgroup uniform storage read write read_write";
+
+const FUNCTIONS: &str = "abs acos acosh all any arrayLength asin asinh atan atan2 atanh bitcast \
+    ceil clamp cos cosh countLeadingZeros countOneBits countTrailingZeros cross degrees \
+    determinant distance dot dot4I8Packed dot4U8Packed dpdx dpdxCoarse dpdxFine dpdy dpdyCoarse \
+    dpdyFine exp exp2 extractBits faceForward firstLeadingBit firstTrailingBit floor fma fract \
+    frexp fwidth fwidthCoarse fwidthFine insertBits inverse inverseSqrt isinf isnan ldexp length \
+    log log2 max min mix modf normalize outerProduct pow quantizeToF16 radians reflect refract \
+    reverseBits round saturate select sign sin sinh smoothstep sqrt step storageBarrier tan tanh \
+    textureDimensions textureGather textureGatherCompare textureLoad textureSample textureStore \
+    transpose trunc workgroupBarrier workgroupUniformLoad";
