@@ -14,10 +14,10 @@ use rand_chacha::ChaCha8Rng;
 use serde::{Deserialize, Serialize};
 
 /// Structures that an island remembers having fitted; a newer one takes the place of an older.
-const MEMORY: usize = 1 << 18;
+const MEMORY: usize = 1 << 17;
 
 /// Fits of one structure, from different starting constants, before it counts as seen.
-const TRIES: u64 = 2;
+const TRIES: u32 = 2;
 
 /// A first look at a candidate, and what a promising one is given.
 const FIRST_STEPS: Stop = Stop { max_steps: 3, min_gain: 1e-3 };
@@ -38,7 +38,7 @@ pub(super) struct Island {
     pub archive: Archive,
     pub counts: Counts,
     /// Hashes of structures, the low bits counting tries.
-    seen: Vec<u64>,
+    seen: Vec<u32>,
     #[serde(skip)]
     workshop: Workshop,
 }
@@ -165,11 +165,12 @@ fn is_written_in(draft: &Draft, problem: &Problem) -> bool {
 }
 
 /// Notes a structure; false where it has been fitted often enough.
-fn remember(seen: &mut [u64], hash: u64) -> bool {
-    const COUNT: u64 = 3;
+fn remember(seen: &mut [u32], hash: u64) -> bool {
+    const COUNT: u32 = 3;
     let entry = &mut seen[(hash >> 40) as usize & (MEMORY - 1)];
-    if *entry & !COUNT != hash & !COUNT {
-        *entry = hash & !COUNT;
+    let mark = hash as u32 & !COUNT;
+    if *entry & !COUNT != mark {
+        *entry = mark;
     }
     if *entry & COUNT >= TRIES {
         return false;

@@ -7,9 +7,11 @@
 mod front;
 mod island;
 mod population;
+mod record;
 mod vary;
 
 pub use front::{Front, FrontMember};
+pub use record::{MemberRecord, RecordError, Run, TRACE_COSTS, TracePoint, trace_csv};
 
 use crate::archive::Archive;
 use crate::cost::{CostScratch, Profile};

@@ -15,8 +15,10 @@ mod print;
 pub use parse::{FreeConstant, ParseError, Parsed, Scope, parse, parse_open, parse_template};
 pub use print::{format_constant, print};
 
+use serde::{Deserialize, Serialize};
+
 /// The names of a program's inputs and outputs, in column order.
-#[derive(Clone, Debug, PartialEq, Eq, Default)]
+#[derive(Clone, Debug, PartialEq, Eq, Default, Serialize, Deserialize)]
 pub struct Names {
     pub inputs: Vec<String>,
     pub outputs: Vec<String>,

@@ -1,0 +1,230 @@
+//! What a run leaves on disk, and how it is read back: `run.ron`, `front.json`, `trace.csv`,
+//! `checkpoint.bin`.
+
+use super::{Counts, Front, FrontMember, Search, Settings};
+use crate::dataset::{Dataset, replace_file};
+use crate::eval::{OutputError, Score};
+use crate::program::{Names, parse};
+use serde::{Deserialize, Serialize};
+use std::collections::BTreeMap;
+use std::path::{Path, PathBuf};
+
+/// Everything needed to repeat a run, and how far it came.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Run {
+    /// The program's version.
+    pub version: String,
+    /// The command line, its arguments as given.
+    pub command: Vec<String>,
+    pub dataset: PathBuf,
+    pub dataset_hash: String,
+    /// The columns that were inputs and outputs.
+    pub names: Names,
+    pub grammar: String,
+    pub gpu: String,
+    pub settings: Settings,
+    pub machine: String,
+    pub threads: usize,
+    pub generations: u64,
+    pub seconds: f64,
+    pub counts: Counts,
+}
+
+/// A run's folder that cannot be read or written.
+#[derive(Debug, thiserror::Error)]
+pub enum RecordError {
+    #[error("{path}: {reason}")]
+    Io { path: PathBuf, reason: std::io::Error },
+    #[error("{path}, line {line}: {reason}; the folder is not one that `lgp search` wrote, or was damaged")]
+    Damaged { path: PathBuf, line: usize, reason: String },
+    #[error("{path}: {reason}")]
+    Checkpoint { path: PathBuf, reason: String },
+}
+
+/// A member as `front.json` has it.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct MemberRecord {
+    pub cost: f64,
+    /// Null until known.
+    pub registers: Option<u32>,
+    /// Over all outputs, on the search split.
+    pub rmse: f64,
+    pub max_error: f64,
+    pub validation: OutputError,
+    /// By output, on the search split.
+    pub errors: BTreeMap<String, OutputError>,
+    /// By output, on the validation split.
+    pub validation_errors: BTreeMap<String, OutputError>,
+    pub verdict: Verdict,
+    pub formula: String,
+}
+
+/// What is known of a formula's behaviour.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Verdict {
+    pub finite: Status,
+}
+
+/// How well it is known.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Status {
+    /// `sampled`: it holds on every sample of both splits.
+    pub status: String,
+}
+
+impl MemberRecord {
+    pub fn new(member: &FrontMember, names: &Names) -> MemberRecord {
+        let by_output = |errors: &[OutputError]| {
+            names.outputs.iter().cloned().zip(errors.iter().copied()).collect()
+        };
+        MemberRecord {
+            cost: member.cost,
+            registers: None,
+            rmse: member.search_error().rmse,
+            max_error: member.search_error().max,
+            validation: member.validation_error(),
+            errors: by_output(&member.score.search),
+            validation_errors: by_output(&member.score.validation),
+            verdict: Verdict { finite: Status { status: "sampled".to_owned() } },
+            formula: member.formula.clone(),
+        }
+    }
+
+    fn into_member(self, names: &Names) -> Result<FrontMember, String> {
+        let program = parse(&self.formula, names).map_err(|error| error.to_string())?;
+        let errors = |map: &BTreeMap<String, OutputError>| {
+            let of = |name: &String| map.get(name).copied();
+            let errors: Option<Vec<_>> = names.outputs.iter().map(of).collect();
+            errors.ok_or_else(|| "an output's errors are missing".to_owned())
+        };
+        let score =
+            Score { search: errors(&self.errors)?, validation: errors(&self.validation_errors)? };
+        Ok(FrontMember { program, cost: self.cost, score, formula: self.formula })
+    }
+}
+
+impl Front {
+    /// The text of `front.json`.
+    pub fn to_json(&self, names: &Names) -> String {
+        let members: Vec<_> = self.members.iter().map(|m| MemberRecord::new(m, names)).collect();
+        serde_json::to_string_pretty(&members).expect("plain data") + "\n"
+    }
+
+    /// Reads `front.json` of a run's folder.
+    pub fn load(folder: &Path, names: &Names) -> Result<Front, RecordError> {
+        let path = folder.join("front.json");
+        let damaged = |line, reason| RecordError::Damaged { path: path.clone(), line, reason };
+        let text = read(&path)?;
+        let records: Vec<MemberRecord> = serde_json::from_str(&text)
+            .map_err(|error| damaged(error.line(), error.to_string()))?;
+        let members: Result<Vec<_>, String> =
+            records.into_iter().map(|record| record.into_member(names)).collect();
+        Ok(Front { members: members.map_err(|reason| damaged(1, reason))? })
+    }
+}
+
+impl Run {
+    /// Reads `run.ron` of a run's folder.
+    pub fn load(folder: &Path) -> Result<Run, RecordError> {
+        let path = folder.join("run.ron");
+        ron::from_str(&read(&path)?).map_err(|error| RecordError::Damaged {
+            line: error.span.start.line,
+            reason: error.code.to_string(),
+            path,
+        })
+    }
+
+    /// Writes `run.ron` to a run's folder.
+    pub fn save(&self, folder: &Path) -> Result<(), RecordError> {
+        let pretty = ron::ser::PrettyConfig::default();
+        let text = ron::ser::to_string_pretty(self, pretty).expect("plain data") + "\n";
+        write(&folder.join("run.ron"), text.as_bytes())
+    }
+}
+
+/// A line of `trace.csv`.
+#[derive(Clone, Debug, PartialEq)]
+pub struct TracePoint {
+    pub seconds: f64,
+    pub counts: Counts,
+    pub hypervolume: f64,
+    /// The least RMSE on the search split at each of [`TRACE_COSTS`] or below.
+    pub errors: [f64; TRACE_COSTS.len()],
+}
+
+/// The costs whose best error is traced.
+pub const TRACE_COSTS: [f64; 9] = [5.0, 8.0, 10.0, 12.0, 16.0, 20.0, 25.0, 30.0, 40.0];
+
+impl Search {
+    /// Where the search stands after some seconds.
+    pub fn trace_point(&self, seconds: f64) -> TracePoint {
+        TracePoint {
+            seconds,
+            counts: self.counts(),
+            hypervolume: self.archive().hypervolume(self.settings().max_cost, 1.0),
+            errors: TRACE_COSTS.map(|cost| self.archive().best_loss(cost).sqrt()),
+        }
+    }
+
+    /// Writes `checkpoint.bin`: this search, for this dataset, with a checksum.
+    pub fn save(&self, folder: &Path, dataset: &Dataset) -> Result<(), RecordError> {
+        let path = folder.join("checkpoint.bin");
+        let mut bytes = CHECKPOINT_MAGIC.to_vec();
+        bytes.extend(dataset.hash().as_bytes());
+        let body = postcard::to_allocvec(self).expect("plain data");
+        bytes.extend(body);
+        let checksum = blake3::hash(&bytes);
+        bytes.extend(checksum.as_bytes());
+        write(&path, &bytes)
+    }
+
+    /// Reads `checkpoint.bin` of a run's folder.
+    ///
+    /// # Errors
+    /// If it is not whole, not of this version, or of other data.
+    pub fn load(folder: &Path, dataset: &Dataset) -> Result<Search, RecordError> {
+        let path = folder.join("checkpoint.bin");
+        let bytes = std::fs::read(&path)
+            .map_err(|reason| RecordError::Io { path: path.clone(), reason })?;
+        let refuse = |reason: &str| RecordError::Checkpoint { path: path.clone(), reason: reason.to_owned() };
+        let hash = dataset.hash();
+        let Some((content, checksum)) = bytes.split_last_chunk::<32>() else {
+            return Err(refuse("too short for a checkpoint"));
+        };
+        if blake3::hash(content).as_bytes() != checksum {
+            return Err(refuse("damaged (its checksum does not match); start the search anew"));
+        }
+        let body = content
+            .strip_prefix(CHECKPOINT_MAGIC)
+            .ok_or_else(|| refuse("a checkpoint of another version; start the search anew"))?;
+        let body = body.strip_prefix(hash.as_bytes()).ok_or_else(|| {
+            refuse("a checkpoint of other data; give the dataset and columns it was made with")
+        })?;
+        postcard::from_bytes(body).map_err(|error| refuse(&error.to_string()))
+    }
+}
+
+const CHECKPOINT_MAGIC: &[u8] = b"LGPSTATE1";
+
+/// The text of `trace.csv`.
+pub fn trace_csv(points: &[TracePoint]) -> String {
+    let costs = TRACE_COSTS.map(|cost| format!("rmse_{cost}")).join(",");
+    let mut text = format!("seconds,considered,fitted,fitted_on_all,hypervolume,{costs}\n");
+    for point in points {
+        let TracePoint { seconds, counts, hypervolume, errors } = point;
+        let errors = errors.map(|error| format!("{error:.6}")).join(",");
+        text += &format!(
+            "{seconds:.3},{},{},{},{hypervolume:.4},{errors}\n",
+            counts.considered, counts.fitted, counts.fitted_on_all
+        );
+    }
+    text
+}
+
+fn read(path: &Path) -> Result<String, RecordError> {
+    std::fs::read_to_string(path).map_err(|reason| RecordError::Io { path: path.into(), reason })
+}
+
+fn write(path: &Path, bytes: &[u8]) -> Result<(), RecordError> {
+    replace_file(path, bytes).map_err(|reason| RecordError::Io { path: path.into(), reason })
+}
