@@ -14,3 +14,5 @@ pub mod fit;
 pub mod microfacet;
 pub mod quadrature;
 pub mod targets;
+
+pub mod cli;
