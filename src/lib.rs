@@ -22,3 +22,5 @@ pub mod emit;
 pub mod microfacet;
 pub mod quadrature;
 pub mod targets;
+
+pub mod cli;

@@ -80,6 +80,9 @@ pub enum Error {
     NegativeWeight { path: PathBuf, line: usize, value: f32 },
     #[error("{path}: {asked} input columns were asked for, but there are only {columns} columns and at least one must be left as an output; ask for fewer", path = path.display())]
     TooManyInputs { path: PathBuf, asked: usize, columns: usize },
+
+    #[error("{path}, line {line}: unusable incumbents: {problem}", path = path.display())]
+    Incumbents { path: PathBuf, line: usize, problem: String },
 }
 
 fn at_line(line: Option<usize>) -> String {

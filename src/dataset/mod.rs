@@ -9,11 +9,13 @@ mod csv;
 mod error;
 mod file;
 mod format;
+mod incumbent;
 mod select;
 
 pub use csv::{InputColumns, import_csv};
 pub use error::Error;
 pub use file::replace_file;
+pub use incumbent::{Comparable, Incumbent, incumbents_file, incumbents_for, load_incumbents};
 
 use serde::{Deserialize, Serialize};
 use std::collections::HashSet;

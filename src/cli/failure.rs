@@ -1,0 +1,90 @@
+use crate::{dataset, program, targets};
+use std::io::Write;
+use std::path::Path;
+use std::process::ExitCode;
+
+/// How a command that was not done ends.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Exit {
+    /// What was asked for is fine, but could not be done.
+    Failed = 1,
+    /// The command line itself is wrong.
+    Usage = 2,
+    /// Something that the command line refers to is unusable.
+    Input = 3,
+    /// A target that was asked for was not met.
+    Unmet = 4,
+    /// Stopped by the user.
+    Interrupted = 130,
+}
+
+impl From<Exit> for ExitCode {
+    fn from(exit: Exit) -> ExitCode {
+        ExitCode::from(exit as u8)
+    }
+}
+
+/// Why a command was not done, for the person who called it.
+#[derive(Debug)]
+pub struct Failure {
+    pub exit: Exit,
+    pub error: anyhow::Error,
+}
+
+impl Failure {
+    pub fn new(exit: Exit, error: impl Into<anyhow::Error>) -> Failure {
+        Failure { exit, error: error.into() }
+    }
+
+    /// A command line that is wrong whatever the files hold.
+    pub fn usage(message: impl Into<String>) -> Failure {
+        Failure::new(Exit::Usage, anyhow::Error::msg(message.into()))
+    }
+
+    /// An output that cannot be written.
+    pub fn unwritable(path: &Path, reason: impl std::fmt::Display) -> Failure {
+        let path = path.display();
+        let advice = "choose an output in a folder that exists and that you may write to";
+        Failure::new(Exit::Failed, anyhow::anyhow!("{path}: cannot be written: {reason}; {advice}"))
+    }
+
+    /// Tells the user, on stderr: the error, and what caused it as far as the
+    /// error does not say so itself.
+    pub(super) fn report(&self) {
+        let mut text = self.error.to_string();
+        for cause in self.error.chain().skip(1).map(ToString::to_string) {
+            if !text.contains(&cause) {
+                text = format!("{text}\n  because: {cause}");
+            }
+        }
+        // Nobody is left to tell if stderr is closed.
+        let _ = writeln!(std::io::stderr(), "error: {text}");
+    }
+}
+
+impl From<dataset::Error> for Failure {
+    fn from(error: dataset::Error) -> Failure {
+        match error {
+            dataset::Error::Io { path, action: "written", source } => {
+                Failure::unwritable(&path, source)
+            }
+            error => Failure::new(Exit::Input, error),
+        }
+    }
+}
+
+impl From<targets::Error> for Failure {
+    fn from(error: targets::Error) -> Failure {
+        match error {
+            targets::Error::Dataset(error) => error.into(),
+            error @ targets::Error::Accuracy { .. } => Failure::new(Exit::Failed, error),
+            error => Failure::new(Exit::Input, error),
+        }
+    }
+}
+
+impl From<program::ParseError> for Failure {
+    fn from(error: program::ParseError) -> Failure {
+        Failure::new(Exit::Input, error)
+    }
+}

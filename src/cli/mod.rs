@@ -1,0 +1,92 @@
+//! The command line. One file a subcommand, each with its `Args` and a `run`.
+
+mod failure;
+mod generate;
+mod import;
+mod info;
+mod inventory;
+mod list;
+mod output;
+
+pub use failure::{Exit, Failure};
+pub use output::Common;
+
+use clap::{Parser, Subcommand};
+use std::process::ExitCode;
+
+const ABOUT: &str = "\
+Finds cheap closed-form shader formulas for a table of samples.
+
+A dataset holds samples of a function: import your own from CSV, or generate one
+of the ground truths that are built in. Formulas are judged on two axes: their
+error, and the GPU cycles they cost.";
+
+const EXAMPLES: &str = "\
+To begin:
+  lgp list                      what there is to start from
+  lgp generate dfg -o dfg.bin   make the dataset of a ground truth, or
+  lgp import mine.csv -o mine.bin --inputs 2
+                                of your own table: two inputs, the rest outputs
+  lgp info dfg.bin              what a dataset holds
+
+Exit codes: 0 done, 1 failed, 2 usage, 3 unusable input, 4 a target asked for
+was not met, 130 interrupted.";
+
+#[derive(Parser)]
+#[command(name = "lgp", version, about = ABOUT, after_help = EXAMPLES)]
+#[command(subcommand_required = true, arg_required_else_help = true)]
+struct Cli {
+    #[command(subcommand)]
+    command: Command,
+    #[command(flatten)]
+    common: Common,
+}
+
+#[derive(Subcommand)]
+enum Command {
+    Generate(generate::Args),
+    Import(import::Args),
+    Info(info::Args),
+    List(list::Args),
+}
+
+impl Command {
+    fn run(&self, common: &Common) -> Result<(), Failure> {
+        match self {
+            Command::Generate(args) => generate::run(args, common),
+            Command::Import(args) => import::run(args, common),
+            Command::Info(args) => info::run(args, common),
+            Command::List(args) => list::run(args, common),
+        }
+    }
+}
+
+/// Runs the command that the process was started with.
+pub fn run() -> ExitCode {
+    let cli = match Cli::try_parse() {
+        Ok(cli) => cli,
+        Err(usage) => {
+            // Help for a reader that has gone away is no failure.
+            let _ = usage.print();
+            return ExitCode::from(usage.exit_code() as u8);
+        }
+    };
+    let done = cli.common.start().and_then(|()| cli.command.run(&cli.common));
+    match done {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(failure) => {
+            failure.report();
+            failure.exit.into()
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use clap::CommandFactory;
+
+    #[test]
+    fn the_command_line_is_consistent() {
+        super::Cli::command().debug_assert();
+    }
+}

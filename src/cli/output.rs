@@ -1,0 +1,111 @@
+//! What every command says, and where: results on stdout, the rest on stderr.
+
+use super::{Exit, Failure};
+use crate::dataset::Dataset;
+use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
+use serde::Serialize;
+use std::io::{ErrorKind, IsTerminal, Write};
+use std::path::Path;
+
+/// The options of every command.
+#[derive(Clone, Debug, clap::Args)]
+pub struct Common {
+    /// Write machine-readable JSON to stdout, and everything else to stderr
+    #[arg(long, global = true)]
+    pub json: bool,
+    /// Say nothing but results and errors
+    #[arg(long, short, global = true)]
+    pub quiet: bool,
+    /// Use so many threads [default: one for each core]
+    #[arg(long, global = true, value_name = "N")]
+    #[arg(value_parser = clap::value_parser!(u16).range(1..=1024))]
+    pub threads: Option<u16>,
+    /// Begin random numbers here: the same seed repeats a search
+    #[arg(long, global = true, value_name = "S", default_value_t = 1)]
+    pub seed: u64,
+}
+
+impl Common {
+    pub(super) fn start(&self) -> Result<(), Failure> {
+        let Some(threads) = self.threads else { return Ok(()) };
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads.into());
+        pool.build_global().map_err(|error| {
+            let error = anyhow::anyhow!("cannot start {threads} threads: {error}; ask for fewer");
+            Failure::new(Exit::Failed, error)
+        })
+    }
+
+    /// A result: `text`, or with `--json` the value.
+    pub fn result(&self, value: &impl Serialize, text: &str) -> Result<(), Failure> {
+        if !self.json {
+            return to_stdout(text.trim_end());
+        }
+        let json = serde_json::to_string_pretty(value)
+            .map_err(|error| Failure::new(Exit::Failed, error))?;
+        to_stdout(&json)
+    }
+
+    /// What a command that leaves a file behind says of it.
+    pub fn summary(&self, value: &impl Serialize, text: &str) -> Result<(), Failure> {
+        if self.quiet && !self.json {
+            return Ok(());
+        }
+        if self.json && !self.quiet {
+            let _ = writeln!(std::io::stderr(), "{text}");
+        }
+        self.result(value, text)
+    }
+
+    /// A bar on a terminal, else nothing.
+    pub fn progress(&self, verb: &'static str) -> ProgressBar {
+        if self.quiet || !std::io::stderr().is_terminal() {
+            return ProgressBar::with_draw_target(None, ProgressDrawTarget::hidden());
+        }
+        let style = ProgressStyle::with_template("{msg} {wide_bar} {percent}%, {eta} left");
+        let style = style.unwrap_or_else(|_| ProgressStyle::default_bar());
+        ProgressBar::new(0).with_style(style).with_message(verb)
+    }
+}
+
+fn to_stdout(text: &str) -> Result<(), Failure> {
+    let mut stdout = std::io::stdout().lock();
+    match writeln!(stdout, "{text}").and_then(|()| stdout.flush()) {
+        // Whoever reads has seen enough, as in `lgp list | head`.
+        Err(error) if error.kind() == ErrorKind::BrokenPipe => Ok(()),
+        Err(error) => {
+            let error = anyhow::anyhow!("standard output: cannot be written: {error}");
+            Err(Failure::new(Exit::Failed, error))
+        }
+        Ok(()) => Ok(()),
+    }
+}
+
+/// Refuses an output that could not be written, before anything is computed.
+pub fn check_writable(path: &Path) -> Result<(), Failure> {
+    let folder = match path.parent() {
+        Some(parent) if !parent.as_os_str().is_empty() => parent,
+        _ => Path::new("."),
+    };
+    if path.is_dir() || path.file_name().is_none() {
+        return Err(Failure::unwritable(path, "it is a folder"));
+    }
+    let attempt = tempfile::Builder::new().prefix(".lgp-").tempfile_in(folder);
+    // The error would name the temporary, which means nothing to the user.
+    attempt.map(drop).map_err(|error| Failure::unwritable(path, reason(&error)))
+}
+
+fn reason(error: &std::io::Error) -> String {
+    match error.kind() {
+        ErrorKind::NotFound => "its folder does not exist".into(),
+        ErrorKind::NotADirectory => "its folder is a file".into(),
+        ErrorKind::PermissionDenied => "its folder does not let you write".into(),
+        kind => kind.to_string(),
+    }
+}
+
+/// Saves a dataset under the name of its file, as committed recipes expect.
+pub fn save(mut dataset: Dataset, path: &Path) -> Result<Dataset, Failure> {
+    dataset.name = path.file_stem().unwrap_or_default().to_string_lossy().into_owned();
+    dataset.save(path)?;
+    Ok(dataset)
+}

@@ -1,0 +1,118 @@
+//! Published formulas for a dataset, to be scored on the same axes as what a
+//! search finds.
+
+use super::{Dataset, Error};
+use crate::program::{Names, Program, parse, parse_open};
+use serde::Deserialize;
+use std::path::{Path, PathBuf};
+
+/// A published formula, as a file in `datasets/incumbents` lists it.
+#[derive(Clone, Debug, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Incumbent {
+    pub name: String,
+    /// Citation: author, title, where, year.
+    pub source: String,
+    /// Formula text over the dataset's columns.
+    pub formula: String,
+    /// Joint cycles of all its outputs as the publication's form counts them,
+    /// if known.
+    #[serde(default)]
+    pub cost: Option<f64>,
+    #[serde(default)]
+    pub note: String,
+}
+
+/// An incumbent read over a dataset's columns.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Comparable {
+    pub incumbent: Incumbent,
+    /// Over the dataset's inputs; one output for each of `outputs`.
+    pub program: Program,
+    /// The outputs of the dataset that the formula defines, in the dataset's
+    /// order: those it can be scored on.
+    pub outputs: Vec<String>,
+}
+
+impl Incumbent {
+    /// This incumbent over a dataset's columns, or nothing if it uses other
+    /// inputs or defines none of the outputs.
+    pub fn compared_on(&self, dataset: &Dataset) -> Option<Comparable> {
+        let inputs: Vec<&str> = dataset.inputs.iter().map(|column| column.name.as_str()).collect();
+        let over = |outputs: &[String]| {
+            let outputs = outputs.iter().map(String::as_str);
+            parse(&self.formula, &Names::new(inputs.iter().copied(), outputs)).ok()
+        };
+        let names = dataset.outputs.iter().map(|column| column.name.clone());
+        let outputs: Vec<String> =
+            names.filter(|name| over(std::slice::from_ref(name)).is_some()).collect();
+        let program = over(&outputs).filter(|_| !outputs.is_empty())?;
+        Some(Comparable { incumbent: self.clone(), program, outputs })
+    }
+}
+
+/// Reads a list of incumbents, in RON.
+///
+/// # Errors
+/// A file that cannot be read, is no list of incumbents, names two alike, or
+/// holds a formula that is none.
+pub fn load_incumbents(path: &Path) -> Result<Vec<Incumbent>, Error> {
+    let text = std::fs::read_to_string(path).map_err(|source| match source.kind() {
+        std::io::ErrorKind::NotFound => Error::Missing { path: path.into() },
+        _ => Error::Io { path: path.into(), action: "read", source },
+    })?;
+    let refused = |line, problem| Error::Incumbents { path: path.into(), line, problem };
+    let incumbents: Vec<Incumbent> = ron::from_str(&text)
+        .map_err(|error| refused(error.span.start.line, error.code.to_string()))?;
+    for (index, incumbent) in incumbents.iter().enumerate() {
+        let name = &incumbent.name;
+        if incumbents[..index].iter().any(|earlier| earlier.name == *name) {
+            let line = line_naming(&text, name, 1);
+            return Err(refused(line, format!("`{name}` occurs twice; name each incumbent once")));
+        }
+        parse_open(&incumbent.formula, &[])
+            .map_err(|error| refused(line_naming(&text, name, 0), format!("`{name}`: {error}")))?;
+    }
+    Ok(incumbents)
+}
+
+/// The line on which a quoted name occurs, after so many occurrences.
+fn line_naming(text: &str, name: &str, skipped: usize) -> usize {
+    let quoted = format!("{name:?}");
+    let mut lines = (1..).zip(text.lines()).filter(|(_, line)| line.contains(&quoted));
+    lines.nth(skipped).map_or(1, |(line, _)| line)
+}
+
+/// The file that lists a dataset's incumbents, if there is one:
+/// `incumbents/<target>.ron` beside the dataset's file, after the target in
+/// its recipe, or else after its name.
+pub fn incumbents_file(dataset_path: &Path, dataset: &Dataset) -> Option<PathBuf> {
+    let folder = dataset_path.parent()?.join("incumbents");
+    let names = [target_of(&dataset.recipe), Some(dataset.name.clone())];
+    let files = names.into_iter().flatten().map(|name| folder.join(name + ".ron"));
+    files.into_iter().find(|file| file.is_file())
+}
+
+/// The incumbents of a dataset that are comparable on its columns: those of
+/// [`incumbents_file`], none if there is no such file.
+///
+/// # Errors
+/// Those of [`load_incumbents`].
+pub fn incumbents_for(dataset_path: &Path, dataset: &Dataset) -> Result<Vec<Comparable>, Error> {
+    let Some(file) = incumbents_file(dataset_path, dataset) else {
+        return Ok(Vec::new());
+    };
+    let incumbents = load_incumbents(&file)?;
+    Ok(incumbents.iter().filter_map(|incumbent| incumbent.compared_on(dataset)).collect())
+}
+
+#[derive(Deserialize)]
+struct TargetOnly {
+    target: String,
+}
+
+fn target_of(recipe: &str) -> Option<String> {
+    let TargetOnly { target } = ron::from_str(recipe).ok()?;
+    let is_name = |c: char| c.is_ascii_alphanumeric() || c == '_';
+    target.chars().all(is_name).then_some(target)
+}
