@@ -23,4 +23,6 @@ pub mod microfacet;
 pub mod quadrature;
 pub mod targets;
 
+pub mod report;
+
 pub mod cli;

@@ -3,7 +3,7 @@
 use lgp::cost::{CostScratch, Profile};
 use lgp::op::Op;
 use lgp::program::{Arg, Draft, Names, Program, parse, print};
-use lgp::simplify::Simplifier;
+use lgp::simplify::{Simplifier, tidy};
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 
@@ -58,7 +58,11 @@ fn random_programs_keep_their_values_and_do_not_become_dearer() {
         let texts = || format!("{} -> {}", print(&program, &names), print(&simple, &names));
         assert!(after <= before, "{before} -> {after}: {}", texts());
         let wide = |p: &Program, x: [f32; 2]| f64::from(p.evaluate(&x)[0]);
+        let tidied = tidy(&simple);
+        assert_eq!(profile.cycles(&tidied, &mut scratch), after);
         for x in [[0.3, 0.6], [0.9, 0.15]] {
+            let [a, b] = [&simple, &tidied].map(|p| p.evaluate(&x)[0]);
+            assert!(a.to_bits() == b.to_bits() || (a.is_nan() && b.is_nan()), "{}", texts());
             let (a, b) = (wide(&program, x), wide(&simple, x));
             // Where values cancel or blow up, rounding differs by more.
             if a.is_finite() && a.abs() > 1e-2 && a.abs() < 1e2 {
@@ -96,5 +100,19 @@ fn rules_rewrite_as_they_say() {
     ] {
         let simple = simplified(&parse(text, &names).unwrap());
         assert_eq!(print(&simple, &names), expected, "{text}");
+    }
+}
+
+#[test]
+fn tidied_formulas_have_fewer_signs() {
+    let names = Names::new(["x", "y"], ["f"]);
+    for (text, expected) in [
+        ("f = x + -0.5", "f = x - 0.5"),
+        ("f = -2*x + y", "f = y - 2*x"),
+        ("f = y - -2*x", "f = y + 2*x"),
+        ("f = x - -0.5", "f = x + 0.5"),
+        ("t = -2*x; f = (t + y)*t", "t0 = -2*x; f = (t0 + y)*t0"),
+    ] {
+        assert_eq!(print(&tidy(&parse(text, &names).unwrap()), &names), expected, "{text}");
     }
 }

@@ -1,3 +1,6 @@
+use crate::cost::ProfileError;
+use crate::grammar::GrammarError;
+use crate::search::RecordError;
 use crate::{dataset, program, targets};
 use std::io::Write;
 use std::path::Path;
@@ -78,6 +81,27 @@ impl From<targets::Error> for Failure {
         match error {
             targets::Error::Dataset(error) => error.into(),
             error @ targets::Error::Accuracy { .. } => Failure::new(Exit::Failed, error),
+            error => Failure::new(Exit::Input, error),
+        }
+    }
+}
+
+impl From<GrammarError> for Failure {
+    fn from(error: GrammarError) -> Failure {
+        Failure::new(Exit::Input, error)
+    }
+}
+
+impl From<ProfileError> for Failure {
+    fn from(error: ProfileError) -> Failure {
+        Failure::new(Exit::Input, error)
+    }
+}
+
+impl From<RecordError> for Failure {
+    fn from(error: RecordError) -> Failure {
+        match error {
+            RecordError::Unwritable { path, reason } => Failure::unwritable(&path, reason),
             error => Failure::new(Exit::Input, error),
         }
     }

@@ -1,12 +1,19 @@
 //! The command line. One file a subcommand, each with its `Args` and a `run`.
 
+mod columns;
+mod duration;
+mod emit;
+mod eval;
 mod failure;
+mod front;
 mod generate;
 mod import;
 mod info;
 mod inventory;
 mod list;
 mod output;
+mod run_folder;
+mod search;
 
 pub use failure::{Exit, Failure};
 pub use output::Common;
@@ -28,6 +35,12 @@ To begin:
   lgp import mine.csv -o mine.bin --inputs 2
                                 of your own table: two inputs, the rest outputs
   lgp info dfg.bin              what a dataset holds
+  lgp search dfg.bin            a minute later: a front of formulas, error
+                                against GPU cycles, and one to paste
+  lgp emit runs/dfg --lang wgsl --max-cost 16
+                                the best one that you can afford
+  lgp eval \"scale = 1 - roughness\" dfg.bin --outputs scale
+                                a formula of your own on the same axes
 
 Exit codes: 0 done, 1 failed, 2 usage, 3 unusable input, 4 a target asked for
 was not met, 130 interrupted.";
@@ -44,6 +57,10 @@ struct Cli {
 
 #[derive(Subcommand)]
 enum Command {
+    Search(search::Args),
+    Front(front::Args),
+    Emit(emit::Args),
+    Eval(eval::Args),
     Generate(generate::Args),
     Import(import::Args),
     Info(info::Args),
@@ -53,6 +70,10 @@ enum Command {
 impl Command {
     fn run(&self, common: &Common) -> Result<(), Failure> {
         match self {
+            Command::Search(args) => search::run(args, common),
+            Command::Front(args) => front::run(args, common),
+            Command::Emit(args) => emit::run(args, common),
+            Command::Eval(args) => eval::run(args, common),
             Command::Generate(args) => generate::run(args, common),
             Command::Import(args) => import::run(args, common),
             Command::Info(args) => info::run(args, common),

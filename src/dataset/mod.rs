@@ -17,6 +17,7 @@ pub use error::Error;
 pub use file::replace_file;
 pub use incumbent::{Comparable, Incumbent, incumbents_file, incumbents_for, load_incumbents};
 
+use crate::program::Names;
 use serde::{Deserialize, Serialize};
 use std::collections::HashSet;
 use std::path::{Path, PathBuf};
@@ -98,6 +99,13 @@ impl Dataset {
 
     fn origin(&self) -> PathBuf {
         PathBuf::from(&self.name)
+    }
+
+    /// The columns' names.
+    pub fn names(&self) -> Names {
+        let [inputs, outputs] = [&self.inputs, &self.outputs]
+            .map(|columns| columns.iter().map(|column| column.name.clone()));
+        Names::new(inputs, outputs)
     }
 
     fn columns(&self) -> impl Iterator<Item = &Column> {

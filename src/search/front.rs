@@ -1,10 +1,12 @@
 //! The front: what a search leaves behind.
 
 use super::{Problem, Search};
-use crate::cost::CostScratch;
+use crate::cost::{CostScratch, Profile};
+use crate::dataset::Dataset;
 use crate::eval::{Evaluator, OutputError, Score, joint};
 use crate::fit::{Fitter, Stop};
-use crate::program::{Draft, Names, Program, print};
+use crate::program::{Draft, Names, Program, effective, print};
+use crate::simplify::tidy;
 use rayon::prelude::*;
 
 /// Fits of the front go on until nothing is gained.
@@ -21,6 +23,30 @@ pub struct FrontMember {
 }
 
 impl FrontMember {
+    /// A program over the dataset's columns, costed and scored.
+    ///
+    /// # Panics
+    /// If the program has other numbers of inputs or outputs than the dataset and `names`.
+    pub fn new(
+        program: Program,
+        dataset: &Dataset,
+        profile: &Profile,
+        names: &Names,
+    ) -> FrontMember {
+        let score = Score::of(&program, dataset, &mut Evaluator::default());
+        let cost = profile.cycles(&program, &mut CostScratch::default());
+        let formula = print(&program, names);
+        FrontMember { program, cost, score, formula }
+    }
+
+    /// Whether it costs no more than the other and errs no more, on the search split.
+    pub fn dominates(&self, other: &FrontMember) -> bool {
+        let [mine, other_error] = [self, other].map(|member| member.search_error().rmse);
+        self.cost <= other.cost
+            && mine <= other_error
+            && (self.cost < other.cost || mine < other_error)
+    }
+
     /// Over all outputs, on the search split.
     pub fn search_error(&self) -> OutputError {
         joint(&self.score.search)
@@ -42,7 +68,7 @@ impl Front {
     /// The archive's members with their constants fitted to convergence on all of the search
     /// split, scored, those not finite somewhere or dominated dropped.
     pub fn of(search: &Search, problem: &Problem) -> Front {
-        let names = problem.names();
+        let names = problem.dataset.names();
         let archive = search.archive().members();
         let polished: Vec<FrontMember> = archive
             .par_iter()
@@ -86,18 +112,8 @@ fn polish(draft: &Draft, problem: &Problem, names: &Names) -> Option<FrontMember
     let mut fitter = Fitter::default();
     let mut draft = draft.clone();
     fitter.fit(&mut draft, &problem.all, TO_CONVERGENCE);
-    let program = Program::verify(draft).ok()?;
-    let score = Score::of(&program, problem.dataset, &mut Evaluator::default());
-    let cost = problem.profile.cycles(&program, &mut CostScratch::default());
-    let formula = print(&program, names);
-    score.is_finite().then_some(FrontMember { program, cost, score, formula })
-}
-
-impl Problem<'_> {
-    /// The dataset's column names.
-    pub fn names(&self) -> Names {
-        let [inputs, outputs] = [&self.dataset.inputs, &self.dataset.outputs]
-            .map(|columns| columns.iter().map(|column| column.name.clone()));
-        Names::new(inputs, outputs)
-    }
+    let program = tidy(&Program::verify(draft).ok()?);
+    let program = effective(&program);
+    let member = FrontMember::new(program, problem.dataset, problem.profile, names);
+    member.score.is_finite().then_some(member)
 }

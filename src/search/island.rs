@@ -7,7 +7,7 @@ use crate::archive::{Archive, Member};
 use crate::cost::CostScratch;
 use crate::fit::{Fitter, Stop};
 use crate::op::Op;
-use crate::program::{Constants, Draft, effective_into, structural_hash};
+use crate::program::{Arg, Constants, Draft, effective_into, structural_hash};
 use crate::simplify::Simplifier;
 use rand::SeedableRng;
 use rand_chacha::ChaCha8Rng;
@@ -151,9 +151,20 @@ impl Island {
         }
     }
 
-    /// Takes a draft from elsewhere into the population, fitted.
+    /// Takes a draft from elsewhere into the population, fitted; equal constants in it are fitted
+    /// apart.
     pub fn settle(&mut self, draft: &Draft, problem: &Problem, settings: &Settings) {
-        self.workshop.child.copy_from(draft);
+        let child = &mut self.workshop.child;
+        child.copy_from(draft);
+        child.consts.clear();
+        let Draft { instrs, consts, outputs, .. } = child;
+        let args = instrs.iter_mut().flat_map(|instr| instr.args_mut()).chain(outputs);
+        for arg in args {
+            if let Arg::Const(i) = arg {
+                consts.push(draft.consts[usize::from(*i)]);
+                *i = (consts.len() - 1) as u16;
+            }
+        }
         self.consider(problem, settings);
     }
 }

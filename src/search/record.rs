@@ -2,7 +2,7 @@
 //! `checkpoint.bin`.
 
 use super::{Counts, Front, FrontMember, Search, Settings};
-use crate::dataset::{Dataset, replace_file};
+use crate::dataset::{Column, Dataset, replace_file};
 use crate::eval::{OutputError, Score};
 use crate::program::{Names, parse};
 use serde::{Deserialize, Serialize};
@@ -18,8 +18,11 @@ pub struct Run {
     pub command: Vec<String>,
     pub dataset: PathBuf,
     pub dataset_hash: String,
+    /// The dataset's name.
+    pub name: String,
     /// The columns that were inputs and outputs.
-    pub names: Names,
+    pub inputs: Vec<Column>,
+    pub outputs: Vec<Column>,
     pub grammar: String,
     pub gpu: String,
     pub settings: Settings,
@@ -33,9 +36,13 @@ pub struct Run {
 /// A run's folder that cannot be read or written.
 #[derive(Debug, thiserror::Error)]
 pub enum RecordError {
-    #[error("{path}: {reason}")]
-    Io { path: PathBuf, reason: std::io::Error },
-    #[error("{path}, line {line}: {reason}; the folder is not one that `lgp search` wrote, or was damaged")]
+    #[error("{path}: cannot be read: {reason}")]
+    Unreadable { path: PathBuf, reason: std::io::Error },
+    #[error("{path}: cannot be written: {reason}")]
+    Unwritable { path: PathBuf, reason: std::io::Error },
+    #[error(
+        "{path}, line {line}: {reason}; the folder is not one that `lgp search` wrote, or was damaged"
+    )]
     Damaged { path: PathBuf, line: usize, reason: String },
     #[error("{path}: {reason}")]
     Checkpoint { path: PathBuf, reason: String },
@@ -124,6 +131,13 @@ impl Front {
 }
 
 impl Run {
+    /// The names of its inputs and outputs.
+    pub fn names(&self) -> Names {
+        let [inputs, outputs] = [&self.inputs, &self.outputs]
+            .map(|columns| columns.iter().map(|column| column.name.clone()));
+        Names::new(inputs, outputs)
+    }
+
     /// Reads `run.ron` of a run's folder.
     pub fn load(folder: &Path) -> Result<Run, RecordError> {
         let path = folder.join("run.ron");
@@ -185,8 +199,11 @@ impl Search {
     pub fn load(folder: &Path, dataset: &Dataset) -> Result<Search, RecordError> {
         let path = folder.join("checkpoint.bin");
         let bytes = std::fs::read(&path)
-            .map_err(|reason| RecordError::Io { path: path.clone(), reason })?;
-        let refuse = |reason: &str| RecordError::Checkpoint { path: path.clone(), reason: reason.to_owned() };
+            .map_err(|reason| RecordError::Unreadable { path: path.clone(), reason })?;
+        let refuse = |reason: &str| RecordError::Checkpoint {
+            path: path.clone(),
+            reason: reason.to_owned(),
+        };
         let hash = dataset.hash();
         let Some((content, checksum)) = bytes.split_last_chunk::<32>() else {
             return Err(refuse("too short for a checkpoint"));
@@ -222,9 +239,11 @@ pub fn trace_csv(points: &[TracePoint]) -> String {
 }
 
 fn read(path: &Path) -> Result<String, RecordError> {
-    std::fs::read_to_string(path).map_err(|reason| RecordError::Io { path: path.into(), reason })
+    std::fs::read_to_string(path)
+        .map_err(|reason| RecordError::Unreadable { path: path.into(), reason })
 }
 
 fn write(path: &Path, bytes: &[u8]) -> Result<(), RecordError> {
-    replace_file(path, bytes).map_err(|reason| RecordError::Io { path: path.into(), reason })
+    replace_file(path, bytes)
+        .map_err(|reason| RecordError::Unwritable { path: path.into(), reason })
 }

@@ -6,6 +6,9 @@
 //! so whoever needs the value evaluates the result; nothing is promised bit for bit.
 
 mod rules;
+mod tidy;
+
+pub use tidy::tidy;
 
 use crate::op::{MAX_ARITY, Op};
 use crate::program::{Arg, Draft, Instr, effective_into, use_counts};

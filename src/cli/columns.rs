@@ -1,0 +1,22 @@
+//! Which columns of a dataset a command takes.
+
+use super::Failure;
+use crate::dataset::Dataset;
+
+/// The options that choose columns.
+#[derive(Clone, Debug, clap::Args)]
+pub struct Columns {
+    /// Only these inputs; an output may be one, too [default: all inputs]
+    #[arg(long, value_name = "A,B", value_delimiter = ',')]
+    inputs: Option<Vec<String>>,
+    /// Only these outputs [default: all outputs]
+    #[arg(long, value_name = "A,B", value_delimiter = ',')]
+    outputs: Option<Vec<String>>,
+}
+
+impl Columns {
+    /// The dataset with only the columns chosen.
+    pub fn of(&self, dataset: &Dataset) -> Result<Dataset, Failure> {
+        Ok(dataset.select(self.inputs.as_deref(), self.outputs.as_deref())?)
+    }
+}

@@ -1,0 +1,34 @@
+//! Times on the command line: `60s`, `10m`, `1.5h`, `500ms`, or seconds alone.
+
+use std::time::Duration;
+
+pub fn parse(text: &str) -> Result<Duration, String> {
+    let units = [("ms", 1e-3), ("s", 1.0), ("m", 60.0), ("min", 60.0), ("h", 3600.0)];
+    let digits = text.find(|c: char| c.is_ascii_alphabetic()).unwrap_or(text.len());
+    let (number, unit) = text.split_at(digits);
+    let unit = if unit.is_empty() { "s" } else { unit };
+    let seconds = units.iter().find(|(name, _)| *name == unit).map(|(_, seconds)| seconds);
+    match (number.trim().parse::<f64>(), seconds) {
+        (Ok(number), Some(seconds)) if number >= 0.0 && number * seconds <= 1e8 => {
+            Ok(Duration::from_secs_f64(number * seconds))
+        }
+        _ => Err("write a time as in 60s, 10m, 1.5h or 500ms".into()),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn units_are_understood() {
+        for (text, seconds) in
+            [("60s", 60.0), ("60", 60.0), ("10m", 600.0), ("1.5h", 5400.0), ("500ms", 0.5)]
+        {
+            assert_eq!(parse(text), Ok(Duration::from_secs_f64(seconds)));
+        }
+        for text in ["", "s", "-1s", "1 year", "nan", "1e300h", "infs"] {
+            assert!(parse(text).is_err(), "{text}");
+        }
+    }
+}

@@ -1,0 +1,77 @@
+use super::{Common, Exit, Failure, run_folder};
+use crate::emit::Language;
+use crate::search::{Front, FrontMember};
+use serde::Serialize;
+use std::path::PathBuf;
+
+/// Write a formula of a run as a function ready to paste
+#[derive(clap::Args)]
+pub struct Args {
+    /// A folder that `lgp search` wrote
+    run: PathBuf,
+    /// hlsl, wgsl or glsl
+    #[arg(long, value_name = "L", value_parser = Language::from_name)]
+    lang: Language,
+    /// Which one: its number in the table, or the knee [default: knee]
+    #[arg(long, value_name = "knee|N", conflicts_with_all = ["max_cost", "max_error"])]
+    pick: Option<String>,
+    /// The most accurate that costs at most C cycles
+    #[arg(long, value_name = "C")]
+    max_cost: Option<f64>,
+    /// The cheapest whose RMSE is at most E
+    #[arg(long, value_name = "E")]
+    max_error: Option<f64>,
+}
+
+#[derive(Serialize)]
+struct Emitted<'a> {
+    language: &'a str,
+    cost: f64,
+    rmse: f64,
+    formula: &'a str,
+    code: &'a str,
+}
+
+pub fn run(args: &Args, common: &Common) -> Result<(), Failure> {
+    let (run, front) = run_folder::load(&args.run)?;
+    let member = pick(args, &front)?;
+    let code = run_folder::snippet(&run, member, args.lang);
+    let emitted = Emitted {
+        language: args.lang.name(),
+        cost: member.cost,
+        rmse: member.search_error().rmse,
+        formula: &member.formula,
+        code: &code,
+    };
+    common.result(&emitted, &code)
+}
+
+fn pick<'a>(args: &Args, front: &'a Front) -> Result<&'a FrontMember, Failure> {
+    let members = &front.members;
+    let unmet = |message: String| Failure::new(Exit::Unmet, anyhow::Error::msg(message));
+    if args.max_cost.is_some() || args.max_error.is_some() {
+        let (cost, error) =
+            (args.max_cost.unwrap_or(f64::INFINITY), args.max_error.unwrap_or(f64::INFINITY));
+        let mut suitable = members
+            .iter()
+            .filter(|member| member.cost <= cost && member.search_error().rmse <= error);
+        // The front falls: the cheapest is the first, the most accurate the last.
+        let found = if args.max_error.is_some() { suitable.next() } else { suitable.next_back() };
+        return found.ok_or_else(|| {
+            unmet(format!("no formula of the front costs at most {cost} cycles with an RMSE of at most {error}; search longer, or ask for less"))
+        });
+    }
+    match args.pick.as_deref() {
+        None | Some("knee") => front.knee().ok_or_else(|| unmet("the front is empty".into())),
+        Some(number) => {
+            number.parse::<usize>().ok().and_then(|n| members.get(n.checked_sub(1)?)).ok_or_else(
+                || {
+                    Failure::usage(format!(
+                        "--pick {number}: give `knee`, or a number from 1 to {} as in `lgp front`",
+                        members.len()
+                    ))
+                },
+            )
+        }
+    }
+}

@@ -1,0 +1,30 @@
+use super::{Common, Failure, run_folder, search};
+use crate::cost::Profile;
+use crate::dataset::Dataset;
+use crate::report::table::{Published, front_table};
+use crate::search::{MemberRecord, Run};
+use std::path::PathBuf;
+
+/// Show the front of a run as a table, published formulas beside it
+#[derive(clap::Args)]
+pub struct Args {
+    /// A folder that `lgp search` wrote
+    run: PathBuf,
+}
+
+pub fn run(args: &Args, common: &Common) -> Result<(), Failure> {
+    let (run, front) = run_folder::load(&args.run)?;
+    let names = run.names();
+    let records: Vec<_> = front.members.iter().map(|m| MemberRecord::new(m, &names)).collect();
+    let table = front_table(&front, &incumbents(&run).unwrap_or_default(), &names.outputs);
+    common.result(&records, &table)
+}
+
+/// The incumbents, if the dataset is still where the run found it.
+fn incumbents(run: &Run) -> Option<Vec<Published>> {
+    let whole = Dataset::load(&run.dataset).ok().filter(|data| data.hash() == run.dataset_hash)?;
+    let names = run.names();
+    let dataset = whole.select(Some(&names.inputs), Some(&names.outputs)).ok()?;
+    let profile = Profile::find(&run.gpu).ok()?;
+    search::published(&run.dataset, &dataset, &profile).ok()
+}

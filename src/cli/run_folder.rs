@@ -1,0 +1,146 @@
+//! A run's folder while it is written, and the snippets in it.
+
+use super::{Exit, Failure};
+use crate::dataset::{Column, Dataset, replace_file};
+use crate::emit::{self, Language, Snippet};
+use crate::report::table::{Published, front_table};
+use crate::search::{Front, FrontMember, Run, Search, TracePoint, trace_csv};
+use std::path::{Path, PathBuf};
+use std::time::{Duration, Instant};
+
+/// Between checkpoints.
+const CHECKPOINT_INTERVAL: Duration = Duration::from_secs(15);
+
+/// Makes a run's folder, and makes sure that it can be written, before anything is searched.
+pub fn create(folder: &Path) -> Result<(), Failure> {
+    std::fs::create_dir_all(folder)
+        .and_then(|()| tempfile::tempfile_in(folder).map(drop))
+        .map_err(|error| Failure::unwritable(folder, error.kind()))
+}
+
+/// A run's folder before the run is done.
+pub struct PartialRun {
+    folder: PathBuf,
+    trace: Vec<TracePoint>,
+    /// The lines of the run that this one goes on with.
+    earlier_trace: String,
+    last_checkpoint: Instant,
+}
+
+impl PartialRun {
+    pub fn new(folder: &Path, resumed: bool) -> PartialRun {
+        let earlier = resumed.then(|| std::fs::read_to_string(folder.join("trace.csv")).ok());
+        PartialRun {
+            folder: folder.to_owned(),
+            trace: Vec::new(),
+            earlier_trace: earlier.flatten().unwrap_or_default(),
+            last_checkpoint: Instant::now(),
+        }
+    }
+
+    /// Notes a generation; checkpoints now and then.
+    pub fn record(
+        &mut self,
+        point: TracePoint,
+        search: &Search,
+        dataset: &Dataset,
+    ) -> Result<(), Failure> {
+        // Later on little changes: points a twentieth apart are enough.
+        let enough = self.trace.last().is_none_or(|last| point.seconds >= last.seconds * 1.05);
+        if enough {
+            self.trace.push(point);
+        }
+        if self.last_checkpoint.elapsed() >= CHECKPOINT_INTERVAL {
+            search.save(&self.folder, dataset)?;
+            self.last_checkpoint = Instant::now();
+        }
+        Ok(())
+    }
+
+    /// Writes what the run leaves behind.
+    pub fn finish(
+        &self,
+        run: &Run,
+        front: &Front,
+        incumbents: &[Published],
+        search: &Search,
+        dataset: &Dataset,
+    ) -> Result<(), Failure> {
+        let names = run.names();
+        let trace = trace_csv(&self.trace);
+        let trace = match self.earlier_trace.is_empty() {
+            true => trace,
+            false => self.earlier_trace.clone() + trace.split_once('\n').map_or("", |(_, t)| t),
+        };
+        self.write("front.json", front.to_json(&names).as_bytes())?;
+        self.write("trace.csv", trace.as_bytes())?;
+        self.write("front.txt", front_table(front, incumbents, &names.outputs).as_bytes())?;
+        let snippets = self.folder.join("snippets");
+        let _ = std::fs::remove_dir_all(&snippets);
+        create(&snippets)?;
+        for (i, member) in front.members.iter().enumerate() {
+            for &language in Language::ALL {
+                let file = format!("snippets/{:02}.{}", i + 1, language.extension());
+                self.write(&file, snippet(run, member, language).as_bytes())?;
+            }
+        }
+        search.save(&self.folder, dataset)?;
+        Ok(run.save(&self.folder)?)
+    }
+
+    fn write(&self, name: &str, bytes: &[u8]) -> Result<(), Failure> {
+        let path = self.folder.join(name);
+        replace_file(&path, bytes).map_err(|error| Failure::unwritable(&path, error))
+    }
+}
+
+/// A member as a function ready to paste.
+pub fn snippet(run: &Run, member: &FrontMember, language: Language) -> String {
+    let names = run.names();
+    let (search, validation) = (member.search_error(), member.validation_error());
+    let mut header = vec![
+        format!("{} → {}", names.inputs.join(", "), names.outputs.join(", ")),
+        format!(
+            "data: {} ({}), seed {}, lgp {}",
+            run.name, run.dataset_hash, run.settings.seed, run.version
+        ),
+        format!("domain: {}", domains(&run.inputs)),
+        format!("cost: {} cycles on {}", member.cost, run.gpu),
+        format!("error: RMSE {:.5}, max {:.5} on the search split", search.rmse, search.max),
+        format!(
+            "       RMSE {:.5}, max {:.5} on the validation split",
+            validation.rmse, validation.max
+        ),
+    ];
+    if names.outputs.len() > 1 {
+        for (output, error) in names.outputs.iter().zip(&member.score.search) {
+            header.push(format!("       {output}: RMSE {:.5}, max {:.5}", error.rmse, error.max));
+        }
+    }
+    header.push("finite on every sample of both splits".to_owned());
+    header.push(member.formula.clone());
+    emit::emit(
+        language,
+        &Snippet { program: &member.program, names: &names, function: &run.name, header: &header },
+    )
+}
+
+fn domains(inputs: &[Column]) -> String {
+    let domain = |column: &Column| {
+        let [low, high] = column.domain;
+        format!("{} in [{low}, {high}]", column.name)
+    };
+    inputs.iter().map(domain).collect::<Vec<_>>().join(", ")
+}
+
+/// The run and the front of a folder that `lgp search` wrote.
+pub fn load(folder: &Path) -> Result<(Run, Front), Failure> {
+    if !folder.is_dir() {
+        let message =
+            format!("{}: no such folder; give one that `lgp search` wrote", folder.display());
+        return Err(Failure::new(Exit::Input, anyhow::Error::msg(message)));
+    }
+    let run = Run::load(folder)?;
+    let front = Front::load(folder, &run.names())?;
+    Ok((run, front))
+}

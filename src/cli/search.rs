@@ -1,0 +1,278 @@
+use super::run_folder::{self, PartialRun};
+use super::{Common, Exit, Failure, columns::Columns, duration};
+use crate::cost::Profile;
+use crate::dataset::{Dataset, incumbents_for};
+use crate::grammar::Grammar;
+use crate::program::{Draft, parse};
+use crate::report::table::{Published, front_table};
+use crate::search::{Front, FrontMember, MemberRecord, Problem, Run, Search, Settings, TracePoint};
+use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
+use std::io::IsTerminal;
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::time::{Duration, Instant};
+
+/// Search formulas for a dataset: a front of error against GPU cycles
+///
+/// Ends with the front as a table, published formulas beside it, and a function to paste.
+/// Ctrl-C stops early and keeps everything.
+#[derive(clap::Args)]
+pub struct Args {
+    /// A dataset, as `lgp generate` and `lgp import` write them
+    dataset: PathBuf,
+    #[command(flatten)]
+    columns: Columns,
+    /// What may be written: a built-in grammar, or a .ron file
+    #[arg(long, value_name = "G", default_value = "shader")]
+    grammar: String,
+    /// What it costs: a built-in GPU profile, or a .ron file
+    #[arg(long, value_name = "P", default_value = "gcn")]
+    gpu: String,
+    /// How long to search, as in 60s, 10m [default: 60s, unless --generations is given]
+    #[arg(long, value_parser = duration::parse)]
+    time: Option<Duration>,
+    /// Stop after N generations: with the same seed the same front, whatever the threads
+    #[arg(long, value_name = "N")]
+    generations: Option<u64>,
+    /// The most cycles that a formula may cost
+    #[arg(long, value_name = "C", default_value_t = 40.0, value_parser = budget)]
+    max_cost: f64,
+    /// Populations that evolve apart (part of what a seed repeats)
+    #[arg(long, value_name = "N", default_value_t = 8)]
+    #[arg(value_parser = clap::value_parser!(u16).range(1..=256))]
+    islands: u16,
+    /// A formula to start from, over the dataset's columns; may be given more than once
+    #[arg(long, value_name = "FORMULA")]
+    guess: Vec<String>,
+    /// Where the run is written [default: runs/NAME]
+    #[arg(long, value_name = "DIR")]
+    out: Option<PathBuf>,
+    /// Go on with the run in the output folder, where it stopped
+    #[arg(long)]
+    resume: bool,
+}
+
+fn budget(text: &str) -> Result<f64, String> {
+    match text.parse::<f64>() {
+        Ok(cost) if (0.0..=1000.0).contains(&cost) => Ok(cost),
+        _ => Err("a cost budget is 0 to 1000 cycles; no formula costs less than 0".into()),
+    }
+}
+
+pub fn run(args: &Args, common: &Common) -> Result<(), Failure> {
+    let whole = Dataset::load(&args.dataset)?;
+    let dataset = args.columns.of(&whole)?;
+    let grammar = Grammar::find(&args.grammar)?;
+    let profile = Profile::find(&args.gpu)?;
+    let guesses = guesses(&args.guess, &dataset)?;
+    let incumbents = published(&args.dataset, &dataset, &profile)?;
+    let folder = args.out.clone().unwrap_or_else(|| Path::new("runs").join(&dataset.name));
+    run_folder::create(&folder)?;
+    let settings = Settings {
+        seed: common.seed,
+        islands: args.islands.into(),
+        max_cost: args.max_cost,
+        ..Settings::default()
+    };
+    let (mut search, before) = if args.resume {
+        resumed(&folder, &dataset, &settings, args)?
+    } else {
+        (Search::new(settings), 0.0)
+    };
+    let problem = Problem::new(&dataset, &grammar, &profile, search.settings());
+    if !args.resume {
+        search.settle(&guesses, &problem);
+    }
+    let mut partial = PartialRun::new(&folder, args.resume);
+    let interrupted = watch_for_interrupts();
+    let seconds = evolve(args, common, &mut search, &problem, &mut partial, before, &interrupted)?;
+    let front = Front::of(&search, &problem);
+    let run = Run {
+        version: env!("CARGO_PKG_VERSION").to_owned(),
+        command: std::env::args().collect(),
+        dataset: args.dataset.clone(),
+        dataset_hash: whole.hash(),
+        name: dataset.name.clone(),
+        inputs: dataset.inputs.clone(),
+        outputs: dataset.outputs.clone(),
+        grammar: args.grammar.clone(),
+        gpu: args.gpu.clone(),
+        settings: search.settings().clone(),
+        machine: machine(),
+        threads: rayon::current_num_threads(),
+        generations: search.generation(),
+        seconds,
+        counts: search.counts(),
+    };
+    partial.finish(&run, &front, &incumbents, &search, &dataset)?;
+    show(common, &run, &front, &incumbents, &folder)?;
+    if interrupted.load(Ordering::Relaxed) {
+        let done = format!(
+            "interrupted after {seconds:.1} s; {} is whole, and --resume goes on with it",
+            folder.display()
+        );
+        return Err(Failure::new(Exit::Interrupted, anyhow::Error::msg(done)));
+    }
+    Ok(())
+}
+
+fn guesses(texts: &[String], dataset: &Dataset) -> Result<Vec<Draft>, Failure> {
+    let names = dataset.names();
+    texts.iter().map(|text| Ok(parse(text, &names)?.into_draft())).collect()
+}
+
+/// The incumbents that define every output, scored.
+pub(super) fn published(
+    path: &Path,
+    dataset: &Dataset,
+    profile: &Profile,
+) -> Result<Vec<Published>, Failure> {
+    let comparable = incumbents_for(path, dataset)?;
+    let names = dataset.names();
+    let whole = comparable.into_iter().filter(|known| known.outputs == names.outputs);
+    Ok(whole
+        .map(|known| Published {
+            name: known.incumbent.name,
+            member: FrontMember::new(known.program, dataset, profile, &names),
+        })
+        .collect())
+}
+
+/// The search of a run's folder, if it was of the same data and settings, and its seconds so far.
+fn resumed(
+    folder: &Path,
+    dataset: &Dataset,
+    settings: &Settings,
+    args: &Args,
+) -> Result<(Search, f64), Failure> {
+    let run = Run::load(folder)?;
+    let search = Search::load(folder, dataset)?;
+    let same = (&run.grammar, &run.gpu, search.settings()) == (&args.grammar, &args.gpu, settings);
+    if !same {
+        let path = folder.join("run.ron");
+        let message = format!(
+            "{}: the run there has other settings; give the same --seed, --grammar, --gpu, --max-cost and --islands, or another --out",
+            path.display()
+        );
+        return Err(Failure::new(Exit::Input, anyhow::Error::msg(message)));
+    }
+    Ok((search, run.seconds))
+}
+
+fn watch_for_interrupts() -> Arc<AtomicBool> {
+    let interrupted = Arc::new(AtomicBool::new(false));
+    let seen = Arc::clone(&interrupted);
+    // Without a handler Ctrl-C ends the process, and the last checkpoint stands.
+    let _ = ctrlc::set_handler(move || {
+        if seen.swap(true, Ordering::Relaxed) {
+            std::process::exit(Exit::Interrupted as i32);
+        }
+    });
+    interrupted
+}
+
+/// Runs generations until the budget is spent; gives the seconds of the whole run.
+fn evolve(
+    args: &Args,
+    common: &Common,
+    search: &mut Search,
+    problem: &Problem,
+    partial: &mut PartialRun,
+    before: f64,
+    interrupted: &AtomicBool,
+) -> Result<f64, Failure> {
+    let default = args.generations.is_none().then_some(Duration::from_secs(60));
+    let time = args.time.or(default);
+    let bar = live_front(common);
+    let start = Instant::now();
+    let seconds = || before + start.elapsed().as_secs_f64();
+    loop {
+        let spent = time.is_some_and(|time| seconds() >= time.as_secs_f64());
+        let done = args.generations.is_some_and(|n| search.generation() >= n);
+        if spent || done || interrupted.load(Ordering::Relaxed) {
+            break;
+        }
+        search.advance(problem);
+        let point = search.trace_point(seconds());
+        let progress = match (time, args.generations) {
+            (_, Some(n)) => search.generation() as f64 / n.max(1) as f64,
+            (Some(time), None) => point.seconds / time.as_secs_f64().max(1e-3),
+            (None, None) => 0.0,
+        };
+        show_progress(&bar, &point, progress);
+        partial.record(point, search, problem.dataset)?;
+    }
+    bar.finish_and_clear();
+    Ok(seconds())
+}
+
+fn live_front(common: &Common) -> ProgressBar {
+    if common.quiet || !std::io::stderr().is_terminal() {
+        return ProgressBar::with_draw_target(None, ProgressDrawTarget::hidden());
+    }
+    let style = ProgressStyle::with_template("{msg}\n{wide_bar} {percent}%");
+    ProgressBar::new(1000).with_style(style.unwrap_or_else(|_| ProgressStyle::default_bar()))
+}
+
+fn show_progress(bar: &ProgressBar, point: &TracePoint, progress: f64) {
+    if bar.is_hidden() {
+        return;
+    }
+    let row = |label: &str, cells: Vec<String>| {
+        let cells: String = cells.iter().map(|cell| format!("{cell:>9}")).collect();
+        format!("{label:<7}{cells}")
+    };
+    let costs = crate::search::TRACE_COSTS.iter().map(|cost| format!("≤ {cost}")).collect();
+    let errors = point.errors.iter().map(|error| format!("{error:.5}")).collect();
+    bar.set_message(format!(
+        "{:.0} s, {} candidates considered, {} fitted\n{}\n{}",
+        point.seconds,
+        point.counts.considered,
+        point.counts.fitted,
+        row("cycles", costs),
+        row("RMSE", errors)
+    ));
+    bar.set_position((progress.min(1.0) * 1000.0) as u64);
+}
+
+fn show(
+    common: &Common,
+    run: &Run,
+    front: &Front,
+    incumbents: &[Published],
+    folder: &Path,
+) -> Result<(), Failure> {
+    let names = run.names();
+    let records: Vec<_> = front.members.iter().map(|m| MemberRecord::new(m, &names)).collect();
+    let mut text = front_table(front, incumbents, &names.outputs);
+    if let Some(knee) = front.knee() {
+        let snippet = run_folder::snippet(run, knee, crate::emit::Language::Hlsl);
+        text += &format!(
+            "\nThe knee, as HLSL (other members and languages: lgp emit {} --lang wgsl --pick N):\n\n{snippet}",
+            folder.display()
+        );
+    }
+    common.result(&records, &text)?;
+    if !common.quiet {
+        eprintln!(
+            "{} generations, {} candidates considered, {} fitted in {:.1} s; written to {}",
+            run.generations,
+            run.counts.considered,
+            run.counts.fitted,
+            run.seconds,
+            folder.display()
+        );
+    }
+    Ok(())
+}
+
+fn machine() -> String {
+    let cores = std::thread::available_parallelism().map_or(1, usize::from);
+    format!(
+        "{} {}, {cores} cores, {}",
+        std::env::consts::ARCH,
+        std::env::consts::OS,
+        crate::eval::Isa::best()
+    )
+}

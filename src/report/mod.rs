@@ -1,0 +1,3 @@
+//! What a person looks at: tables and pictures of a front.
+
+pub mod table;

@@ -1,0 +1,85 @@
+//! A front as a table of text, published formulas on the same axes.
+
+use crate::search::{Front, FrontMember};
+use std::fmt::Write;
+
+/// A published formula, scored as a member would be.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Published {
+    pub name: String,
+    pub member: FrontMember,
+}
+
+/// The front by rising cost, each member's formula under its numbers, incumbents where their cost
+/// puts them. Errors are over all outputs; those by output follow where there are several.
+pub fn front_table(front: &Front, incumbents: &[Published], outputs: &[String]) -> String {
+    let mut text = heading(outputs);
+    let mut waiting: Vec<&Published> = incumbents.iter().collect();
+    waiting.sort_by(|a, b| a.member.cost.total_cmp(&b.member.cost));
+    let mut waiting = waiting.into_iter().peekable();
+    for (i, member) in front.members.iter().enumerate() {
+        while let Some(known) = waiting.next_if(|known| known.member.cost < member.cost) {
+            text += &incumbent_row(known, front);
+        }
+        let _ = writeln!(text, "{:>4}  {}", i + 1, numbers(member));
+        let _ = writeln!(text, "      {}", member.formula);
+    }
+    waiting.for_each(|known| text += &incumbent_row(known, front));
+    text
+}
+
+fn heading(outputs: &[String]) -> String {
+    let mut text = format!("{:>4}  {:>6}  {:>8} {:>8}  ", "#", "cycles", "RMSE", "max");
+    let _ = write!(text, "{:>8} {:>8}", "val.RMSE", "val.max");
+    if outputs.len() > 1 {
+        for output in outputs {
+            let _ = write!(text, "  {:>17}", format!("{output} RMSE, max"));
+        }
+    }
+    text + "\n"
+}
+
+fn numbers(member: &FrontMember) -> String {
+    let (search, validation) = (member.search_error(), member.validation_error());
+    let mut text = format!(
+        "{:>6}  {} {}  {} {}",
+        member.cost,
+        error(search.rmse),
+        error(search.max),
+        error(validation.rmse),
+        error(validation.max)
+    );
+    if member.score.search.len() > 1 {
+        for output in &member.score.search {
+            let _ = write!(text, "  {} {}", error(output.rmse), error(output.max));
+        }
+    }
+    text
+}
+
+fn incumbent_row(known: &Published, front: &Front) -> String {
+    let standing = match dominating(known, front) {
+        Some((i, member)) => format!(
+            "dominated by {} ({} cycles, RMSE {})",
+            i + 1,
+            member.cost,
+            error(member.search_error().rmse).trim()
+        ),
+        None => "not dominated".to_owned(),
+    };
+    format!("   *  {}\n      {}: {standing}\n", numbers(&known.member), known.name)
+}
+
+/// The cheapest member that dominates an incumbent, and its place.
+pub fn dominating<'a>(known: &Published, front: &'a Front) -> Option<(usize, &'a FrontMember)> {
+    front.members.iter().enumerate().find(|(_, member)| member.dominates(&known.member))
+}
+
+/// Three significant digits or more, in eight columns.
+fn error(value: f64) -> String {
+    match value {
+        0.0 => format!("{:>8}", "0"),
+        v if !(1e-4..1e3).contains(&v) => format!("{v:>8.1e}"),
+        v => format!("{v:>8.5}"),
+    }
+}
