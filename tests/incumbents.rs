@@ -154,3 +154,17 @@ fn unusable_incumbents_say_where() {
     let missing = load_incumbents(&folder.path().join("no.ron")).unwrap_err();
     assert!(matches!(missing, Error::Missing { .. }));
 }
+
+/// The cycles that the reference page counts for each formula.
+#[test]
+fn incumbents_cost_what_was_counted() {
+    use lgp::cost::{CostScratch, Profile};
+    let dataset = Dataset::load(&committed("dfg.bin")).unwrap();
+    let profile = Profile::find("gcn").unwrap();
+    let incumbents = incumbents_for(&committed("dfg.bin"), &dataset).unwrap();
+    assert_eq!(incumbents.len(), 10);
+    for known in incumbents {
+        let cycles = profile.cycles(&known.program, &mut CostScratch::default());
+        assert_eq!(Some(cycles), known.incumbent.cost, "{}", known.incumbent.name);
+    }
+}

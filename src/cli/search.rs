@@ -37,6 +37,7 @@ pub struct Args {
     generations: Option<u64>,
     /// The most cycles that a formula may cost
     #[arg(long, value_name = "C", default_value_t = 40.0, value_parser = budget)]
+    #[arg(allow_hyphen_values = true)]
     max_cost: f64,
     /// Populations that evolve apart (part of what a seed repeats)
     #[arg(long, value_name = "N", default_value_t = 8)]
@@ -68,7 +69,6 @@ pub fn run(args: &Args, common: &Common) -> Result<(), Failure> {
     let guesses = guesses(&args.guess, &dataset)?;
     let incumbents = published(&args.dataset, &dataset, &profile)?;
     let folder = args.out.clone().unwrap_or_else(|| Path::new("runs").join(&dataset.name));
-    run_folder::create(&folder)?;
     let settings = Settings {
         seed: common.seed,
         islands: args.islands.into(),
@@ -80,6 +80,7 @@ pub fn run(args: &Args, common: &Common) -> Result<(), Failure> {
     } else {
         (Search::new(settings), 0.0)
     };
+    run_folder::create(&folder)?;
     let problem = Problem::new(&dataset, &grammar, &profile, search.settings());
     if !args.resume {
         search.settle(&guesses, &problem);

@@ -86,7 +86,10 @@ unsafe fn accumulate_in<L: Lanes>(
                 equations.gradient[usize::from(row)] +=
                     residual.product::<L>(weights, left, chunk.blocks);
                 for pair in entries[..=place].chunks(4) {
-                    let right = std::array::from_fn(|k| output(pair[k.min(pair.len() - 1)].1));
+                    let mut right = [left; 4];
+                    for (to, &(_, derivative)) in right.iter_mut().zip(pair) {
+                        *to = output(derivative);
+                    }
                     let products = products::<L>(weights, left, right, chunk.blocks);
                     for (&(column, _), product) in pair.iter().zip(products) {
                         let (low, high) = (row.min(column), row.max(column));
@@ -162,13 +165,17 @@ unsafe fn products<L: Lanes>(
 ) -> [f64; 4] {
     // SAFETY: promised by the caller.
     unsafe {
-        let mut totals = [L::broadcast(0.0); 4];
+        // Spelled out: what closures and iterators over registers do is not always inlined, and
+        // is then compiled without the instruction set.
+        let zero = L::broadcast(0.0);
+        let (mut t0, mut t1, mut t2, mut t3) = (zero, zero, zero, zero);
         for i in 0..blocks {
             let weighted = weights.block::<L>(i) * left.block::<L>(i);
-            for (total, right) in totals.iter_mut().zip(right) {
-                *total = weighted.fma(right.block::<L>(i), *total);
-            }
+            t0 = weighted.fma(right[0].block::<L>(i), t0);
+            t1 = weighted.fma(right[1].block::<L>(i), t1);
+            t2 = weighted.fma(right[2].block::<L>(i), t2);
+            t3 = weighted.fma(right[3].block::<L>(i), t3);
         }
-        totals.map(|total| sum(total))
+        [sum(t0), sum(t1), sum(t2), sum(t3)]
     }
 }

@@ -155,7 +155,8 @@ macro_rules! define_kernels {
             /// The processor has `L`, whose width is [`BLOCK`], and the step is one of the tape's.
             #[inline(always)]
             unsafe fn step<L: Lanes>(&self, step: &Step) {
-                let from = step.from.map(|operand| self.source(operand));
+                let [a, b, c, d] = step.from;
+                let from = [self.source(a), self.source(b), self.source(c), self.source(d)];
                 let to = self.slot(step.to);
                 let blocks = self.blocks;
                 // SAFETY: every source and the slot hold `blocks` blocks.
