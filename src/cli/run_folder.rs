@@ -3,6 +3,7 @@
 use super::{Exit, Failure};
 use crate::dataset::{Column, Dataset, replace_file};
 use crate::emit::{self, Language, Snippet};
+use crate::report::plot::{self, FrontPlot, PlotError, Theme};
 use crate::report::table::{Published, front_table};
 use crate::search::{Front, FrontMember, Run, Search, TracePoint, trace_csv};
 use std::path::{Path, PathBuf};
@@ -10,6 +11,9 @@ use std::time::{Duration, Instant};
 
 /// Between checkpoints.
 const CHECKPOINT_INTERVAL: Duration = Duration::from_secs(15);
+
+/// Pixels: what a README shows, at twice the density.
+const PLOT_WIDTH: u32 = 1600;
 
 /// Makes a run's folder, and makes sure that it can be written, before anything is searched.
 pub fn create(folder: &Path) -> Result<(), Failure> {
@@ -75,6 +79,7 @@ impl PartialRun {
         self.write("front.json", front.to_json(&names).as_bytes())?;
         self.write("trace.csv", trace.as_bytes())?;
         self.write("front.txt", front_table(front, incumbents, &names.outputs).as_bytes())?;
+        self.write_plots(run, front, incumbents)?;
         let snippets = self.folder.join("snippets");
         let _ = std::fs::remove_dir_all(&snippets);
         create(&snippets)?;
@@ -86,6 +91,35 @@ impl PartialRun {
         }
         search.save(&self.folder, dataset)?;
         Ok(run.save(&self.folder)?)
+    }
+
+    fn write_plots(
+        &self,
+        run: &Run,
+        front: &Front,
+        incumbents: &[Published],
+    ) -> Result<(), Failure> {
+        let point = |member: &FrontMember| (member.cost, member.search_error().rmse);
+        let front: Vec<_> = front.members.iter().map(point).collect();
+        let incumbents: Vec<_> = incumbents
+            .iter()
+            .map(|known| (known.name.clone(), known.member.cost, known.member.search_error().rmse))
+            .collect();
+        let names = run.names();
+        let plot = FrontPlot {
+            title: &format!("{}: {}", run.name, names.outputs.join(", ")),
+            subtitle: &format!("{} · seed {}", domains(&run.inputs), run.settings.seed),
+            x_label: &format!("GPU cycles ({})", run.gpu),
+            y_label: "RMSE on the search split",
+            front: &front,
+            incumbents: &incumbents,
+            theme: Theme::Light,
+        };
+        let failed = |error: PlotError| Failure::new(Exit::Failed, error);
+        self.write("front.svg", plot::svg(&plot).map_err(failed)?.as_bytes())?;
+        self.write("front.png", &plot::png(&plot, PLOT_WIDTH).map_err(failed)?)?;
+        let dark = FrontPlot { theme: Theme::Dark, ..plot };
+        self.write("front-dark.svg", plot::svg(&dark).map_err(failed)?.as_bytes())
     }
 
     fn write(&self, name: &str, bytes: &[u8]) -> Result<(), Failure> {

@@ -47,7 +47,7 @@ impl Default for Settings {
             seed: 1,
             islands: 8,
             candidates: 400,
-            bucket_size: 12,
+            bucket_size: 3,
             max_cost: 40.0,
             migration_interval: 20,
             subset: 256,
