@@ -45,6 +45,11 @@ impl Default for Differentiated {
 impl Differentiated {
     /// Differentiates effective code by each of its constants; replaces what was here.
     pub fn assign(&mut self, source: &Draft) {
+        self.assign_free(source, |_| true);
+    }
+
+    /// Differentiates by those constants that are free; the derivatives by the others are zero.
+    pub fn assign_free(&mut self, source: &Draft, is_free: impl Fn(usize) -> bool) {
         self.scratch.copy_from(source);
         self.partials.clear();
         self.partials.resize(source.instrs.len(), None);
@@ -53,7 +58,7 @@ impl Differentiated {
         self.jacobian.parameters = parameters;
         self.jacobian.entries.iter_mut().for_each(Vec::clear);
         self.jacobian.entries.resize(source.outputs.len(), Vec::new());
-        for parameter in 0..parameters {
+        for parameter in (0..parameters).filter(|&parameter| is_free(parameter)) {
             self.by_constant(source, parameter as u16);
         }
         self.program.assign(&self.scratch).expect("derivatives read earlier results");

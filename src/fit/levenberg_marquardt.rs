@@ -39,7 +39,18 @@ impl Fitter {
     /// # Panics
     /// If the samples have other numbers of inputs or outputs than the program.
     pub fn fit(&mut self, program: &mut Draft, samples: &Samples, stop: Stop) -> f64 {
-        self.derivative.assign(program);
+        self.fit_free(program, samples, stop, |_| true)
+    }
+
+    /// [`Fitter::fit`] of those constants that are free, by index; the others keep their values.
+    pub fn fit_free(
+        &mut self,
+        program: &mut Draft,
+        samples: &Samples,
+        stop: Stop,
+        is_free: impl Fn(usize) -> bool,
+    ) -> f64 {
+        self.derivative.assign_free(program, is_free);
         self.tape.prepare(&self.derivative.program);
         self.constants.clone_from(&self.derivative.program.consts);
         self.damping = 1e-3;

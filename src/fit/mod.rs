@@ -2,6 +2,8 @@
 
 mod derivative;
 mod levenberg_marquardt;
+mod shorten;
 
 pub use derivative::Differentiated;
 pub use levenberg_marquardt::{Fitter, Stop};
+pub use shorten::shorten;

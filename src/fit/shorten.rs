@@ -1,0 +1,76 @@
+//! Constants with few digits.
+
+use super::{Fitter, Stop};
+use crate::eval::Samples;
+use crate::program::Draft;
+
+/// After a constant was rounded, the others make up for it.
+const MAKE_UP: Stop = Stop { max_steps: 6, min_gain: 1e-4 };
+
+/// Digits beyond which an `f32` constant is left as it is.
+const MOST_DIGITS: usize = 6;
+
+/// Rounds constants one after the other, each to the fewest decimal digits with which the sum of
+/// squares, the remaining constants fitted again, stays within `(1 + allowance)` of what it was.
+/// Gives the sum of squares.
+///
+/// # Panics
+/// As [`Fitter::fit`].
+pub fn shorten(fitter: &mut Fitter, program: &mut Draft, samples: &Samples, allowance: f64) -> f64 {
+    let nothing = Stop { max_steps: 0, min_gain: 0.0 };
+    let mut loss = fitter.fit(program, samples, nothing);
+    let limit = loss * (1.0 + allowance);
+    let mut trial = program.clone();
+    for constant in 0..program.consts.len() {
+        for digits in 1..=MOST_DIGITS {
+            trial.copy_from(program);
+            trial.consts[constant] = rounded(program.consts[constant], digits);
+            let trial_loss = fitter.fit_free(&mut trial, samples, MAKE_UP, |i| i > constant);
+            if trial_loss <= limit {
+                program.copy_from(&trial);
+                loss = trial_loss;
+                break;
+            }
+        }
+    }
+    loss
+}
+
+/// The value with so many significant decimal digits.
+fn rounded(value: f32, digits: usize) -> f32 {
+    format!("{value:.*e}", digits - 1).parse().unwrap_or(value)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::dataset::Split;
+    use crate::program::{Names, parse};
+
+    #[test]
+    fn rounding_keeps_the_digits_asked_for() {
+        assert_eq!(rounded(6.9823, 1), 7.0);
+        assert_eq!(rounded(-0.012345, 2), -0.012);
+        assert_eq!(rounded(0.0, 3), 0.0);
+        assert_eq!(rounded(9.99e-40, 1), 1e-39);
+    }
+
+    #[test]
+    fn constants_become_short_and_errors_stay() {
+        let xs: Vec<f32> = (0..100).map(|i| i as f32 / 99.0).collect();
+        let ys = xs.iter().map(|x| (2.0137 * x).sin() + 0.01 * (40.0 * x).sin()).collect();
+        let split = Split { columns: vec![xs, ys], ..Split::default() };
+        let samples = Samples::new(&split, 1);
+        let names = Names::new(["x"], ["y"]);
+        let mut draft = parse("y = sin(2*x) + 0.1*x^2 - 3", &names).unwrap().into_draft();
+        let mut fitter = Fitter::default();
+        let stop = Stop { max_steps: 100, min_gain: 1e-9 };
+        let fitted = fitter.fit(&mut draft, &samples, stop);
+        let digits =
+            |draft: &Draft| draft.consts.iter().map(|c| format!("{c}").len()).sum::<usize>();
+        let before = digits(&draft);
+        let shortened = shorten(&mut fitter, &mut draft, &samples, 0.01);
+        assert!(shortened <= fitted * 1.01, "{fitted} {shortened}");
+        assert!(digits(&draft) * 2 < before, "{before} {:?}", draft.consts);
+    }
+}
