@@ -19,7 +19,11 @@
 //! # Ok::<(), lgp::program::ParseError>(())
 //! ```
 
+mod arithmetic;
+mod bounds;
+mod double;
 mod gauss_newton;
+mod half;
 mod isa;
 mod kernels;
 mod loss;
@@ -28,6 +32,10 @@ mod score;
 mod tape;
 mod values;
 
+pub use self::half::Half;
+pub use arithmetic::Arithmetic;
+pub use bounds::Bounds;
+pub use double::Double;
 pub use gauss_newton::{Jacobian, NormalEquations};
 pub use isa::Isa;
 pub use loss::Loss;
