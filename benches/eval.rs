@@ -174,5 +174,10 @@ fn brief(group: &mut BenchmarkGroup<WallTime>) {
         .measurement_time(Duration::from_millis(1500));
 }
 
-criterion_group!(benches, compare, operations);
+criterion_group! {
+    name = benches;
+    // Its plots want a font that is registered; ours are drawn by `throughput`.
+    config = Criterion::default().without_plots();
+    targets = compare, operations
+}
 criterion_main!(benches);

@@ -13,7 +13,8 @@ pub struct Jacobian {
     /// How many of the tape's outputs are values.
     pub outputs: usize,
     pub parameters: usize,
-    /// For each value, its parameters and the tape's output that is the derivative by it.
+    /// For each value, its parameters and the tape's output that is the derivative by it. Empty lists
+    /// may follow, kept for their allocations.
     pub entries: Vec<Vec<(u16, u16)>>,
 }
 
@@ -75,7 +76,7 @@ unsafe fn accumulate_in<L: Lanes>(
 ) {
     let weights = chunk.rows_of(chunk.samples.weights());
     let output = |index: u16| chunk.source(chunk.tape.outputs[usize::from(index)]);
-    for (o, entries) in jacobian.entries.iter().enumerate() {
+    for (o, entries) in jacobian.entries[..jacobian.outputs].iter().enumerate() {
         let residual =
             Residual { values: output(o as u16), targets: chunk.rows_of(chunk.samples.target(o)) };
         // SAFETY: promised by the caller; every source holds the chunk's blocks.
@@ -169,6 +170,7 @@ unsafe fn products<L: Lanes>(
                 *total = weighted.fma(right.block::<L>(i), *total);
             }
         }
-        totals.map(|total| sum(total))
+        // Not `map`: its closure would be compiled without the register's instructions.
+        [sum(totals[0]), sum(totals[1]), sum(totals[2]), sum(totals[3])]
     }
 }

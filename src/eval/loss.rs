@@ -99,14 +99,18 @@ unsafe fn lanes<L: Lanes>(register: L) -> [f32; BLOCK] {
     lanes
 }
 
-/// The sum of the lanes, first to last, in `f64`.
+/// The sum of the lanes in `f64`, halves first: with no lane waiting for the last, whatever the
+/// register.
 ///
 /// # Safety
 /// `L`'s width is [`BLOCK`].
 #[inline(always)]
 pub(super) unsafe fn sum<L: Lanes>(register: L) -> f64 {
     // SAFETY: promised by the caller.
-    unsafe { lanes(register) }.iter().map(|&lane| f64::from(lane)).sum()
+    let lanes = unsafe { lanes(register) }.map(f64::from);
+    let eight: [f64; 8] = std::array::from_fn(|i| lanes[i] + lanes[i + 8]);
+    let four: [f64; 4] = std::array::from_fn(|i| eight[i] + eight[i + 4]);
+    (four[0] + four[2]) + (four[1] + four[3])
 }
 
 /// The largest lane; NaN if any is.

@@ -261,7 +261,7 @@ pub fn rcp<L: Lanes>(x: L) -> L {
     x.splat(1.0) / x
 }
 
-/// `1/√x`, each step correctly rounded: within 1 ulp; ∞ at +0, NaN below zero.
+/// `1/√x`, each step correctly rounded: within 1.5 ulp; ∞ at +0, NaN below zero.
 #[inline(always)]
 pub fn rsqrt<L: Lanes>(x: L) -> L {
     x.splat(1.0) / x.sqrt()
