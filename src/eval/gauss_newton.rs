@@ -13,7 +13,8 @@ pub struct Jacobian {
     /// How many of the tape's outputs are values.
     pub outputs: usize,
     pub parameters: usize,
-    /// For each value, its parameters and the tape's output that is the derivative by it.
+    /// For each value, its parameters and the tape's output that is the derivative by it. Empty lists
+    /// may follow, kept for their allocations.
     pub entries: Vec<Vec<(u16, u16)>>,
 }
 
@@ -75,7 +76,7 @@ unsafe fn accumulate_in<L: Lanes>(
 ) {
     let weights = chunk.rows_of(chunk.samples.weights());
     let output = |index: u16| chunk.source(chunk.tape.outputs[usize::from(index)]);
-    for (o, entries) in jacobian.entries.iter().enumerate() {
+    for (o, entries) in jacobian.entries[..jacobian.outputs].iter().enumerate() {
         let residual =
             Residual { values: output(o as u16), targets: chunk.rows_of(chunk.samples.target(o)) };
         // SAFETY: promised by the caller; every source holds the chunk's blocks.
@@ -165,17 +166,14 @@ unsafe fn products<L: Lanes>(
 ) -> [f64; 4] {
     // SAFETY: promised by the caller.
     unsafe {
-        // Spelled out: what closures and iterators over registers do is not always inlined, and
-        // is then compiled without the instruction set.
-        let zero = L::broadcast(0.0);
-        let (mut t0, mut t1, mut t2, mut t3) = (zero, zero, zero, zero);
+        let mut totals = [L::broadcast(0.0); 4];
         for i in 0..blocks {
             let weighted = weights.block::<L>(i) * left.block::<L>(i);
-            t0 = weighted.fma(right[0].block::<L>(i), t0);
-            t1 = weighted.fma(right[1].block::<L>(i), t1);
-            t2 = weighted.fma(right[2].block::<L>(i), t2);
-            t3 = weighted.fma(right[3].block::<L>(i), t3);
+            for (total, right) in totals.iter_mut().zip(right) {
+                *total = weighted.fma(right.block::<L>(i), *total);
+            }
         }
-        [sum(t0), sum(t1), sum(t2), sum(t3)]
+        // Not `map`: its closure would be compiled without the register's instructions.
+        [sum(totals[0]), sum(totals[1]), sum(totals[2]), sum(totals[3])]
     }
 }

@@ -2,7 +2,7 @@
 //! (Pesce & Iwanicki 2015, §5.2), generic over the register.
 
 use super::samples::{Block, Samples};
-use super::tape::{Operand, Step, Tape};
+use super::tape::{Area, Operand, Step, Tape};
 use super::{BLOCK, CHUNK};
 use crate::num::{Lanes, math};
 use crate::op::{Op, operations};
@@ -15,7 +15,8 @@ pub(super) const CHUNK_BLOCKS: usize = CHUNK / BLOCK;
 #[derive(Clone, Copy)]
 pub(super) struct Source {
     at: *const f32,
-    constant: bool,
+    /// Values from a block to the next: [`BLOCK`], or 0 for a constant.
+    step: usize,
 }
 
 impl Source {
@@ -25,18 +26,28 @@ impl Source {
     /// `i` lies within the chunk that the source was resolved for, and the processor has `L`.
     #[inline(always)]
     pub(super) unsafe fn block<L: Lanes>(self, i: usize) -> L {
-        let offset = if self.constant { 0 } else { i * BLOCK };
         // SAFETY: promised by the caller.
-        unsafe { L::load(self.at.add(offset)) }
+        unsafe { L::load(self.at.add(i * self.step)) }
     }
+}
+
+/// Where the memory of one [`Area`] lies in this chunk.
+#[derive(Clone, Copy)]
+struct Place {
+    first: *mut Block,
+    /// Blocks from one column, constant or slot to the next.
+    stride: usize,
+    /// As in [`Source`].
+    step: usize,
 }
 
 /// The values of one chunk of samples: columns and constants where they are, results in slots.
 pub(super) struct Chunk<'a> {
     pub(super) tape: &'a Tape,
     pub(super) samples: &'a Samples,
-    slots: *mut Block,
-    /// The slots are this chunk's alone; kernels may read and write the same one.
+    /// By [`Area`].
+    places: [Place; 4],
+    /// The slots and outputs are this chunk's alone; kernels may read and write the same one.
     _slots: PhantomData<&'a mut [Block]>,
     first_block: usize,
     /// At most [`CHUNK_BLOCKS`].
@@ -44,6 +55,8 @@ pub(super) struct Chunk<'a> {
 }
 
 impl<'a> Chunk<'a> {
+    /// A chunk whose outputs lie behind its slots.
+    ///
     /// # Panics
     /// If the samples lack a column that the tape reads, or `slots` is too short for the tape.
     pub(super) fn new(
@@ -52,36 +65,68 @@ impl<'a> Chunk<'a> {
         slots: &'a mut [Block],
         first_block: usize,
     ) -> Chunk<'a> {
+        let (slots, outputs) = slots.split_at_mut(tape.slots * CHUNK_BLOCKS);
+        assert!(outputs.len() >= tape.outputs.len() * CHUNK_BLOCKS, "a slot for every output");
+        let outputs = Place { first: outputs.as_mut_ptr(), stride: CHUNK_BLOCKS, step: BLOCK };
+        Chunk::with_outputs(tape, samples, slots, outputs, first_block)
+    }
+
+    /// A chunk whose outputs go to their rows of whole columns.
+    ///
+    /// # Panics
+    /// As [`Chunk::new`], or if `columns` is too short.
+    pub(super) fn into_columns(
+        tape: &'a Tape,
+        samples: &'a Samples,
+        slots: &'a mut [Block],
+        columns: &'a mut [Block],
+        first_block: usize,
+    ) -> Chunk<'a> {
+        let stride = samples.blocks();
+        assert!(columns.len() >= tape.outputs.len() * stride, "a column for every output");
+        let first = columns[first_block..].as_mut_ptr();
+        let outputs = Place { first, stride, step: BLOCK };
+        Chunk::with_outputs(tape, samples, slots, outputs, first_block)
+    }
+
+    fn with_outputs(
+        tape: &'a Tape,
+        samples: &'a Samples,
+        slots: &'a mut [Block],
+        outputs: Place,
+        first_block: usize,
+    ) -> Chunk<'a> {
         assert_eq!(tape.inputs, samples.inputs(), "the samples have the program's inputs");
         assert!(slots.len() >= tape.slots * CHUNK_BLOCKS, "slots for every live result");
         let blocks = CHUNK_BLOCKS.min(samples.blocks() - first_block);
-        let slots = slots.as_mut_ptr();
-        Chunk { tape, samples, slots, _slots: PhantomData, first_block, blocks }
+        let columns = &samples.columns()[first_block..];
+        let columns =
+            Place { first: columns.as_ptr().cast_mut(), stride: samples.blocks(), step: BLOCK };
+        let consts = Place { first: tape.consts.as_ptr().cast_mut(), stride: 1, step: 0 };
+        let slots = Place { first: slots.as_mut_ptr(), stride: CHUNK_BLOCKS, step: BLOCK };
+        let places = [columns, consts, slots, outputs];
+        Chunk { tape, samples, places, _slots: PhantomData, first_block, blocks }
     }
 
     /// Where an operand of the tape is read in this chunk.
     #[inline(always)]
     pub(super) fn source(&self, operand: Operand) -> Source {
-        match operand {
-            Operand::Column(i) => self.rows_of(self.samples.column(usize::from(i))),
-            Operand::Const(i) => {
-                Source { at: self.tape.consts[usize::from(i)].0.as_ptr(), constant: true }
-            }
-            Operand::Slot(i) => Source { at: self.slot(i), constant: false },
-        }
+        let place = self.places[operand.area as usize];
+        Source { at: self.address(operand), step: place.step }
     }
 
     /// Where a whole column is read in this chunk.
     #[inline(always)]
     pub(super) fn rows_of(&self, column: &[Block]) -> Source {
-        Source { at: column[self.first_block..].as_ptr().cast(), constant: false }
+        Source { at: column[self.first_block..].as_ptr().cast(), step: BLOCK }
     }
 
     #[inline(always)]
-    fn slot(&self, slot: u16) -> *mut f32 {
-        debug_assert!(usize::from(slot) < self.tape.slots);
-        // SAFETY: `new` checked that the slots hold CHUNK_BLOCKS blocks for each of the tape's.
-        unsafe { self.slots.add(usize::from(slot) * CHUNK_BLOCKS).cast() }
+    fn address(&self, operand: Operand) -> *mut f32 {
+        let place = self.places[operand.area as usize];
+        // SAFETY: a tape's operands are its own, and `with_outputs` and its callers checked that
+        // each area has all that the tape counts.
+        unsafe { place.first.add(usize::from(operand.index) * place.stride).cast() }
     }
 
     /// Carries out every step of the tape on this chunk.
@@ -91,61 +136,29 @@ impl<'a> Chunk<'a> {
     #[inline(always)]
     pub(super) unsafe fn run<L: Lanes>(&self) {
         for step in &self.tape.steps {
-            // SAFETY: the tape's operands exist (`source` checks columns and constants, `slot`
-            // slots), and each gives `self.blocks` blocks.
+            // SAFETY: the step is one of the tape's.
             unsafe { self.step::<L>(step) }
         }
     }
-}
 
-/// One loop for each choice of which of the arguments are constant, those being read once.
-macro_rules! kernel {
-    ($from:ident, $to:ident, $blocks:ident, ($a:ident) $meaning:expr) => {
-        for i in 0..$blocks {
-            let $a = $from[0].block::<L>(i);
-            $meaning.store($to.add(i * BLOCK));
-        }
-    };
-    ($from:ident, $to:ident, $blocks:ident, ($a:ident, $b:ident) $meaning:expr) => {
-        match ($from[0].constant, $from[1].constant) {
-            (false, true) => {
-                let $b = L::load($from[1].at);
-                for i in 0..$blocks {
-                    let $a = L::load($from[0].at.add(i * BLOCK));
-                    $meaning.store($to.add(i * BLOCK));
-                }
+    /// Fills the outputs that no step writes: columns, constants, and a result's second place.
+    ///
+    /// # Safety
+    /// As [`Chunk::run`].
+    #[inline(always)]
+    pub(super) unsafe fn copy_outputs<L: Lanes>(&self) {
+        for (o, &output) in self.tape.outputs.iter().enumerate() {
+            let own = Operand { area: Area::Outputs, index: o as u16 };
+            if output == own {
+                continue;
             }
-            (true, false) => {
-                let $a = L::load($from[0].at);
-                for i in 0..$blocks {
-                    let $b = L::load($from[1].at.add(i * BLOCK));
-                    $meaning.store($to.add(i * BLOCK));
-                }
-            }
-            (false, false) => {
-                for i in 0..$blocks {
-                    let $a = L::load($from[0].at.add(i * BLOCK));
-                    let $b = L::load($from[1].at.add(i * BLOCK));
-                    $meaning.store($to.add(i * BLOCK));
-                }
-            }
-            (true, true) => {
-                let $a = L::load($from[0].at);
-                let $b = L::load($from[1].at);
-                let value = $meaning;
-                for i in 0..$blocks {
-                    value.store($to.add(i * BLOCK));
-                }
+            let (from, to) = (self.source(output), self.address(own));
+            for i in 0..self.blocks {
+                // SAFETY: every operand holds `blocks` blocks.
+                unsafe { from.block::<L>(i).store(to.add(i * BLOCK)) };
             }
         }
-    };
-    ($from:ident, $to:ident, $blocks:ident, ($($arg:ident),*) $meaning:expr) => {
-        for i in 0..$blocks {
-            let mut from = $from.iter();
-            $(let $arg = from.next().expect("four sources").block::<L>(i);)*
-            $meaning.store($to.add(i * BLOCK));
-        }
-    };
+    }
 }
 
 macro_rules! define_kernels {
@@ -155,15 +168,19 @@ macro_rules! define_kernels {
             /// The processor has `L`, whose width is [`BLOCK`], and the step is one of the tape's.
             #[inline(always)]
             unsafe fn step<L: Lanes>(&self, step: &Step) {
-                let [a, b, c, d] = step.from;
-                let from = [self.source(a), self.source(b), self.source(c), self.source(d)];
-                let to = self.slot(step.to);
-                let blocks = self.blocks;
-                // SAFETY: every source and the slot hold `blocks` blocks.
-                unsafe {
-                    match step.op {
-                        $(Op::$op => kernel!(from, to, blocks, ($($arg),*) $meaning),)*
-                    }
+                let to = self.address(step.to);
+                match step.op {
+                    $(Op::$op => {
+                        let mut from = step.from.iter();
+                        $(let $arg = self.source(*from.next().expect("four operands"));)*
+                        for i in 0..self.blocks {
+                            // SAFETY: every operand holds `blocks` blocks.
+                            unsafe {
+                                $(let $arg = $arg.block::<L>(i);)*
+                                $meaning.store(to.add(i * BLOCK));
+                            }
+                        }
+                    })*
                 }
             }
         }

@@ -99,7 +99,8 @@ unsafe fn lanes<L: Lanes>(register: L) -> [f32; BLOCK] {
     lanes
 }
 
-/// The sum of the lanes in `f64`, halves added to halves: an order that registers like.
+/// The sum of the lanes in `f64`, halves first: with no lane waiting for the last, whatever the
+/// register.
 ///
 /// # Safety
 /// `L`'s width is [`BLOCK`].

@@ -19,22 +19,32 @@
 //! # Ok::<(), lgp::program::ParseError>(())
 //! ```
 
+mod arithmetic;
+mod bounds;
+mod double;
 mod gauss_newton;
+mod half;
 mod isa;
 mod kernels;
 mod loss;
 mod samples;
 mod score;
 mod tape;
+mod values;
 
+pub use self::half::Half;
+pub use arithmetic::Arithmetic;
+pub use bounds::Bounds;
+pub use double::Double;
 pub use gauss_newton::{Jacobian, NormalEquations};
 pub use isa::Isa;
 pub use loss::Loss;
 pub use samples::Samples;
 pub use score::{OutputError, Score, joint};
 pub use tape::Tape;
+pub use values::Values;
 
-use crate::num::{Lanes, Many};
+use crate::num::Lanes;
 use isa::by_isa;
 use kernels::{CHUNK_BLOCKS, Chunk};
 use samples::Block;
@@ -44,7 +54,7 @@ use samples::Block;
 pub const BLOCK: usize = 16;
 
 /// Samples of a chunk: a program's slots and columns of this length fit the first-level cache.
-pub const CHUNK: usize = 512;
+pub const CHUNK: usize = 1024;
 
 /// Runs tapes; owns the memory that they need.
 #[derive(Clone, Debug)]
@@ -69,28 +79,25 @@ impl Evaluator {
     /// # Panics
     /// If the samples have another number of inputs than the program.
     pub fn outputs(&mut self, tape: &Tape, samples: &Samples) -> Vec<Vec<f32>> {
+        let mut values = Values::default();
+        self.outputs_into(tape, samples, &mut values);
+        (0..tape.outputs.len()).map(|o| values.column(o).to_vec()).collect()
+    }
+
+    /// [`Evaluator::outputs`] without an allocation once `values` is large enough.
+    pub fn outputs_into(&mut self, tape: &Tape, samples: &Samples, values: &mut Values) {
         self.reserve(tape);
-        let mut values = vec![Vec::with_capacity(samples.blocks() * BLOCK); tape.outputs.len()];
+        values.lay_out(samples, tape.outputs.len());
         for first in (0..samples.blocks()).step_by(CHUNK_BLOCKS) {
-            let chunk = Chunk::new(tape, samples, &mut self.slots, first);
+            let columns = &mut values.blocks;
+            let chunk = Chunk::into_columns(tape, samples, &mut self.slots, columns, first);
             run(self.isa, &chunk);
-            for (&output, values) in tape.outputs.iter().zip(&mut values) {
-                let source = chunk.source(output);
-                for i in 0..chunk.blocks {
-                    // SAFETY: `i` lies within the chunk, and every processor has `f32`.
-                    let block = unsafe { source.block::<Many<f32, BLOCK>>(i) };
-                    values.extend_from_slice(&block.to_array());
-                }
-            }
+            copy_outputs(self.isa, &chunk);
         }
-        for column in &mut values {
-            column.truncate(samples.rows());
-        }
-        values
     }
 
     fn reserve(&mut self, tape: &Tape) {
-        let blocks = tape.slots * CHUNK_BLOCKS;
+        let blocks = (tape.slots + tape.outputs.len()) * CHUNK_BLOCKS;
         if self.slots.len() < blocks {
             self.slots.resize(blocks, Block([0.0; BLOCK]));
         }
@@ -108,4 +115,18 @@ by_isa! {
 unsafe fn run_in<L: Lanes>(chunk: &Chunk) {
     // SAFETY: promised by the caller.
     unsafe { chunk.run::<L>() }
+}
+
+by_isa! {
+    /// Copies the outputs that no step writes where they belong: columns, constants, and results
+    /// that are an output twice.
+    fn copy_outputs(chunk: &Chunk) -> () = copy_outputs_in
+}
+
+/// # Safety
+/// The processor has `L`, whose width is [`BLOCK`].
+#[inline(always)]
+unsafe fn copy_outputs_in<L: Lanes>(chunk: &Chunk) {
+    // SAFETY: promised by the caller.
+    unsafe { chunk.copy_outputs::<L>() }
 }

@@ -4,7 +4,7 @@ use super::BLOCK;
 use crate::dataset::Split;
 
 /// One register's worth of values, aligned to it.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, bytemuck::Zeroable, bytemuck::Pod)]
 #[repr(C, align(64))]
 pub(super) struct Block(pub [f32; BLOCK]);
 
@@ -72,6 +72,11 @@ impl Samples {
 
     pub(super) fn blocks(&self) -> usize {
         self.blocks
+    }
+
+    /// All columns, one after the other: inputs, outputs, weights.
+    pub(super) fn columns(&self) -> &[Block] {
+        &self.values
     }
 
     /// A whole column: an input, then an output, then the weights.

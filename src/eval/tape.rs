@@ -6,18 +6,31 @@ use super::samples::Block;
 use crate::op::{MAX_ARITY, Op};
 use crate::program::{Arg, Program, use_counts};
 
-/// Where a kernel reads.
+/// Memory of one kind that kernels read, and write to.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Operand {
-    Column(u16),
-    Const(u16),
-    Slot(u16),
+#[repr(u8)]
+pub(super) enum Area {
+    /// The samples' input columns.
+    Columns,
+    /// The tape's constants, one block each.
+    Consts,
+    /// Results that only other steps read.
+    Slots,
+    /// Results that are outputs: slots too, but their caller may keep them.
+    Outputs,
+}
+
+/// Where a kernel reads or writes.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) struct Operand {
+    pub area: Area,
+    pub index: u16,
 }
 
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Step {
     pub op: Op,
-    pub to: u16,
+    pub to: Operand,
     /// Places beyond the arity repeat the first.
     pub from: [Operand; MAX_ARITY],
 }
@@ -32,7 +45,7 @@ pub struct Tape {
     pub(super) outputs: Vec<Operand>,
     pub(super) slots: usize,
     remaining_reads: Vec<u32>,
-    slot_of: Vec<u16>,
+    place_of: Vec<Operand>,
     free: Vec<u16>,
 }
 
@@ -50,8 +63,14 @@ impl Tape {
         self.steps.clear();
         self.slots = 0;
         self.free.clear();
-        self.slot_of.clear();
-        self.slot_of.resize(program.instrs.len(), 0);
+        self.outputs.clear();
+        self.place_of.clear();
+        self.place_of.resize(program.instrs.len(), Operand { area: Area::Slots, index: 0 });
+        for (o, &output) in program.outputs.iter().enumerate() {
+            if let Arg::Result(i) = output {
+                self.place_of[usize::from(i)] = Operand { area: Area::Outputs, index: o as u16 };
+            }
+        }
         use_counts(program, &mut self.remaining_reads);
         self.set_constants(&program.consts);
         for (i, instr) in program.instrs.iter().enumerate() {
@@ -65,14 +84,15 @@ impl Tape {
             for &arg in instr.args() {
                 self.release(arg);
             }
-            let to = self.free.pop().unwrap_or_else(|| {
-                self.slots += 1;
-                (self.slots - 1) as u16
-            });
-            self.slot_of[i] = to;
-            self.steps.push(Step { op: instr.op(), to, from });
+            if self.place_of[i].area == Area::Slots {
+                let slot = self.free.pop().unwrap_or_else(|| {
+                    self.slots += 1;
+                    (self.slots - 1) as u16
+                });
+                self.place_of[i].index = slot;
+            }
+            self.steps.push(Step { op: instr.op(), to: self.place_of[i], from });
         }
-        self.outputs.clear();
         for &output in &program.outputs {
             let operand = self.operand(output);
             self.outputs.push(operand);
@@ -92,9 +112,9 @@ impl Tape {
 
     fn operand(&self, arg: Arg) -> Operand {
         match arg {
-            Arg::Input(i) => Operand::Column(i),
-            Arg::Const(i) => Operand::Const(i),
-            Arg::Result(i) => Operand::Slot(self.slot_of[usize::from(i)]),
+            Arg::Input(index) => Operand { area: Area::Columns, index },
+            Arg::Const(index) => Operand { area: Area::Consts, index },
+            Arg::Result(i) => self.place_of[usize::from(i)],
         }
     }
 
@@ -105,7 +125,7 @@ impl Tape {
             let reads = &mut self.remaining_reads[usize::from(i)];
             *reads -= 1;
             if *reads == 0 {
-                self.free.push(self.slot_of[usize::from(i)]);
+                self.free.push(self.place_of[usize::from(i)].index);
             }
         }
     }

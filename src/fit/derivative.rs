@@ -57,7 +57,8 @@ impl Differentiated {
         self.jacobian.outputs = source.outputs.len();
         self.jacobian.parameters = parameters;
         self.jacobian.entries.iter_mut().for_each(Vec::clear);
-        self.jacobian.entries.resize(source.outputs.len(), Vec::new());
+        let values = self.jacobian.entries.len().max(source.outputs.len());
+        self.jacobian.entries.resize(values, Vec::new());
         for parameter in (0..parameters).filter(|&parameter| is_free(parameter)) {
             self.by_constant(source, parameter as u16);
         }

@@ -2,6 +2,9 @@
 
 use std::ops::{Add, Div, Mul, Sub};
 
+/// The bits of √½, rounded down.
+pub(super) const SQRT_HALF: u32 = 0x3f35_04f3;
+
 /// A register of `f32` lanes with IEEE-754 arithmetic, round to nearest even.
 ///
 /// Every method acts lane by lane, and gives each lane the bits that the same
@@ -83,6 +86,34 @@ pub trait Lanes:
     #[inline(always)]
     fn abs(self) -> Self {
         self.bit_and(self.bits(0x7fff_ffff))
+    }
+    /// `self · 2ⁿ`, rounded once, for `self` within [½, 2] and an integral `n` within [−252, 254]:
+    /// in two steps, so that the result may be denormal or infinite. NaN where either is.
+    #[inline(always)]
+    fn scale_by_power_of_two(self, n: Self) -> Self {
+        let n = n.to_int_bits();
+        let half = n.shift_right::<1>();
+        let power = |n: Self| n.add_bits(n.bits(127)).shift_left::<23>();
+        self * power(half) * power(n.sub_bits(half))
+    }
+    /// Splits a positive finite value into `(e, m)` with `self = 2^e · m` and `m` in [√½, √2).
+    #[inline(always)]
+    fn exponent_and_mantissa(self) -> (Self, Self) {
+        let denormal = self.lt(self.splat(f32::MIN_POSITIVE));
+        let scaled = Self::select(denormal, self * self.splat(8_388_608.0), self);
+        let offset = Self::select(denormal, self.splat(-23.0), self.splat(0.0));
+        let e = scaled.sub_bits(self.bits(SQRT_HALF)).shift_right::<23>();
+        (e.int_to_float() + offset, scaled.sub_bits(e.shift_left::<23>()))
+    }
+    /// `result`, but where `self` is ±0 −∞, where it is +∞ that, and NaN where it is negative or NaN.
+    #[inline(always)]
+    fn logarithm_special_cases(self, result: Self) -> Self {
+        let zero = self.splat(0.0);
+        let infinity = self.splat(f32::INFINITY);
+        let result = Self::select(self.eq(infinity), infinity, result);
+        let result = Self::select(self.eq(zero), infinity.neg(), result);
+        let result = Self::select(self.lt(zero), self.splat(f32::NAN), result);
+        Self::select(self.is_nan(), self, result)
     }
     /// IEEE-754 2019 `minimum`: NaN if either is NaN, and −0 < +0.
     #[inline(always)]
@@ -303,6 +334,12 @@ impl<L: Lanes, const N: usize> Lanes for Many<L, N> {
     fn shift_right<const S: i32>(self) -> Self {
         self.each(|l| l.shift_right::<S>())
     }
+    #[inline(always)]
+    fn exponent_and_mantissa(self) -> (Self, Self) {
+        let parts = self.0.map(L::exponent_and_mantissa);
+        (Many(parts.map(|(e, _)| e)), Many(parts.map(|(_, m)| m)))
+    }
     by_register!(unary sqrt, floor, round, to_int_bits, int_to_float);
-    by_register!(binary at_least, at_most, bit_and, bit_or, bit_xor, add_bits, sub_bits, minimum, maximum);
+    by_register!(binary at_least, at_most, bit_and, bit_or, bit_xor, add_bits, sub_bits, minimum, maximum,
+        scale_by_power_of_two, logarithm_special_cases);
 }

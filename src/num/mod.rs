@@ -4,11 +4,13 @@
 //! gives the same bits at every width: one `f32` (the scalar reference), sixteen in
 //! plain code, in two AVX2 registers, or in one AVX-512 register.
 
+mod interval;
 mod lanes;
 pub mod math;
 #[cfg(target_arch = "x86_64")]
 mod x86;
 
+pub use interval::{Interval, enclose};
 pub use lanes::{Lanes, Many};
 #[cfg(target_arch = "x86_64")]
 pub use x86::{Avx2, Avx512};

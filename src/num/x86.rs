@@ -5,6 +5,7 @@
 //! (AVX2 and FMA; AVX-512 F and DQ), so each method that has one may use them.
 
 use super::Lanes;
+use super::lanes::SQRT_HALF;
 use std::arch::x86_64::*;
 use std::ops::{Add, Div, Mul, Sub};
 
@@ -174,6 +175,19 @@ impl Lanes for Avx512 {
             _mm512_castsi512_ps(_mm512_sra_epi32(_mm512_castps_si512(self.0), _mm_cvtsi32_si128(N)))
         })
     }
+    #[inline(always)]
+    fn exponent_and_mantissa(self) -> (Self, Self) {
+        // SAFETY: see the head of this file.
+        unsafe {
+            let e = _mm512_getexp_ps(self.0);
+            let m = _mm512_getmant_ps::<_MM_MANT_NORM_1_2, _MM_MANT_SIGN_SRC>(self.0);
+            let upper = _mm512_set1_ps(f32::from_bits(SQRT_HALF + (1 << 23)));
+            let is_upper = _mm512_cmp_ps_mask::<_CMP_GE_OQ>(m, upper);
+            let e = _mm512_mask_add_ps(e, is_upper, e, _mm512_set1_ps(1.0));
+            let m = _mm512_mask_mul_ps(m, is_upper, m, _mm512_set1_ps(0.5));
+            (Avx512(e), Avx512(m))
+        }
+    }
     methods! { floats
         fma(b, c) = |a, b, c| _mm512_fmadd_ps(a, b, c);
         sqrt() = |a| _mm512_sqrt_ps(a);
@@ -188,6 +202,11 @@ impl Lanes for Avx512 {
         sub_bits(b) = |a, b| _mm512_castsi512_ps(_mm512_sub_epi32(_mm512_castps_si512(a), _mm512_castps_si512(b)));
         to_int_bits() = |a| _mm512_castsi512_ps(_mm512_cvttps_epi32(a));
         int_to_float() = |a| _mm512_cvtepi32_ps(_mm512_castps_si512(a));
+        scale_by_power_of_two(n) = |a, n| _mm512_scalef_ps(a, n);
+        logarithm_special_cases(result) = |a, result| {
+            // For each class of value (quiet NaN first) a digit: keep the result, NaN, −∞ or +∞.
+            _mm512_fixupimm_ps::<0>(result, a, _mm512_set1_epi32(0x0353_0422))
+        };
         // VRANGEPS orders −0 < +0 but drops a quiet NaN of one side, so the sum restores it.
         minimum(b) = |a, b| {
             let nan = _mm512_cmp_ps_mask::<_CMP_UNORD_Q>(a, b);

@@ -1,5 +1,8 @@
 //! One suite for every evaluator: the interpreter in each kind of register gives the scalar
-//! reference's bits, and the reference is as accurate as its documentation says.
+//! reference's bits, the reference is as accurate as its documentation says, and the other
+//! arithmetics agree with it, each within its own tolerance.
+
+mod arithmetic;
 
 use lgp::dataset::Split;
 use lgp::eval::{Evaluator, Isa, Samples, Tape};

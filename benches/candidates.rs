@@ -1,0 +1,53 @@
+//! Candidates a second on joint DFG, one thread: considered by a search, and fitted on all samples.
+//!
+//! `RAYON_NUM_THREADS=1 cargo run --release --example candidates [SECONDS]`
+
+use lgp::cost::Profile;
+use lgp::dataset::Dataset;
+use lgp::eval::Samples;
+use lgp::fit::{Fitter, Stop};
+use lgp::grammar::Grammar;
+use lgp::search::{Problem, Search, Settings};
+use rand::{RngExt, SeedableRng};
+use rand_chacha::ChaCha8Rng;
+use std::error::Error;
+use std::time::Instant;
+
+/// A fit ends when a step gains less than a thousandth.
+const STOP: Stop = Stop { max_steps: 50, min_gain: 1e-3 };
+
+fn main() -> Result<(), Box<dyn Error>> {
+    let seconds: f64 = std::env::args().nth(1).map_or(Ok(20.0), |text| text.parse())?;
+    let dataset = Dataset::load("datasets/dfg.bin".as_ref())?;
+    let (grammar, profile) = (Grammar::find("shader")?, Profile::find("gcn")?);
+    let settings = Settings::default();
+    let problem = Problem::new(&dataset, &grammar, &profile, &settings);
+    let mut search = Search::new(settings);
+    let start = Instant::now();
+    while start.elapsed().as_secs_f64() < seconds {
+        search.advance(&problem);
+    }
+    let (counts, elapsed) = (search.counts(), start.elapsed().as_secs_f64());
+    println!("considered            {:8.0} /s", counts.considered as f64 / elapsed);
+    println!("fitted on the subset  {:8.0} /s", counts.fitted as f64 / elapsed);
+
+    let samples = Samples::new(&dataset.search, dataset.inputs.len());
+    let mut fitter = Fitter::default();
+    let mut rng = ChaCha8Rng::seed_from_u64(1);
+    let drafts: Vec<_> = search.archive().members().iter().map(|m| m.draft.clone()).collect();
+    let (mut fits, mut operations) = (0, 0);
+    let start = Instant::now();
+    while start.elapsed().as_secs_f64() < seconds / 2.0 {
+        let mut draft = drafts[fits % drafts.len()].clone();
+        draft.consts.iter_mut().for_each(|c| *c *= rng.random_range(0.7f32..1.4));
+        operations += draft.instrs.len();
+        fitter.fit(&mut draft, &samples, STOP);
+        fits += 1;
+    }
+    println!(
+        "fitted on all samples {:8.0} /s, of {:.1} operations",
+        fits as f64 / start.elapsed().as_secs_f64(),
+        operations as f64 / fits as f64
+    );
+    Ok(())
+}

@@ -1,0 +1,37 @@
+//! Programs in arithmetics other than `f32`, sample by sample.
+
+use crate::op::{MAX_ARITY, Op};
+use crate::program::{Arg, Program};
+
+/// What the operations do with values of some kind.
+pub trait Arithmetic {
+    type Value: Copy;
+
+    /// A constant of a program.
+    fn constant(&self, value: f32) -> Self::Value;
+
+    /// Arguments beyond the arity are not looked at.
+    fn apply(&self, op: Op, arguments: [Self::Value; MAX_ARITY]) -> Self::Value;
+
+    /// The program's outputs where its inputs are `inputs`.
+    ///
+    /// # Panics
+    /// If `inputs` has not one value for each input column.
+    fn evaluate(&self, program: &Program, inputs: &[Self::Value]) -> Vec<Self::Value> {
+        assert_eq!(inputs.len(), program.inputs, "one value for each input");
+        let mut results = Vec::with_capacity(program.instrs.len());
+        let value = |arg: Arg, results: &[Self::Value]| match arg {
+            Arg::Input(i) => inputs[usize::from(i)],
+            Arg::Const(i) => self.constant(program.consts[usize::from(i)]),
+            Arg::Result(i) => results[usize::from(i)],
+        };
+        for instr in &program.instrs {
+            let mut arguments = [value(instr.args()[0], &results); MAX_ARITY];
+            for (to, &arg) in arguments.iter_mut().zip(instr.args()) {
+                *to = value(arg, &results);
+            }
+            results.push(self.apply(instr.op(), arguments));
+        }
+        program.outputs.iter().map(|&arg| value(arg, &results)).collect()
+    }
+}
