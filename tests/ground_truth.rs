@@ -117,7 +117,6 @@ fn committed_datasets_are_what_their_recipes_define() {
 }
 
 #[test]
-#[ignore = "integrates 28,594 points; run it after a change of quadrature, microfacet or targets"]
 fn committed_datasets_are_generated_again() {
     for name in ["dfg", "dfg_paper"] {
         let recipe = Recipe::load(&committed(&format!("{name}.ron"))).unwrap();

@@ -5,7 +5,7 @@ use crate::cost::{CostScratch, Profile};
 use crate::dataset::Dataset;
 use crate::eval::{Evaluator, OutputError, Score, joint};
 use crate::fit::{Fitter, Stop, shorten};
-use crate::program::{Draft, Names, Program, effective, print};
+use crate::program::{Draft, Names, Program, effective, parse, print};
 use crate::simplify::{Simplifier, tidy};
 use rayon::prelude::*;
 
@@ -36,9 +36,11 @@ impl FrontMember {
         profile: &Profile,
         names: &Names,
     ) -> FrontMember {
+        let formula = print(&program, names);
+        // What is shown is what is scored and emitted, operand by operand.
+        let program = parse(&formula, names).unwrap_or(program);
         let score = Score::of(&program, dataset, &mut Evaluator::default());
         let cost = profile.cycles(&program, &mut CostScratch::default());
-        let formula = print(&program, names);
         FrontMember { program, cost, score, formula }
     }
 
