@@ -97,6 +97,8 @@ fn rules_rewrite_as_they_say() {
         ("f = y*rcp(x)", "f = y/x"),
         ("f = mad(x, y, 1)", "f = x*y + 1"),
         ("f = x + 2*3", "f = x + 6"),
+        ("f = 1*x - 0.5", "f = x + -0.5"),
+        ("f = y + -1*x", "f = y - x"),
     ] {
         let simple = simplified(&parse(text, &names).unwrap());
         assert_eq!(print(&simple, &names), expected, "{text}");

@@ -196,6 +196,7 @@ impl Simplifier {
     fn product_with_constant(&mut self, x: Arg, c: Arg) -> Option<Arg> {
         match self.constant(c) {
             Some(1.0) => return Some(x),
+            Some(-1.0) => return Some(self.build(Op::Neg, &[x])),
             Some(0.0) => return Some(self.draft.constant(0.0)),
             _ => {}
         }
