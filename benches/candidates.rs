@@ -1,6 +1,6 @@
 //! Candidates a second on joint DFG, one thread: considered by a search, and fitted on all samples.
 //!
-//! `RAYON_NUM_THREADS=1 cargo run --release --example candidates [SECONDS]`
+//! `RAYON_NUM_THREADS=1 cargo run --release --example candidates [GENERATIONS]`
 
 use lgp::cost::Profile;
 use lgp::dataset::Dataset;
@@ -17,14 +17,14 @@ use std::time::Instant;
 const STOP: Stop = Stop { max_steps: 50, min_gain: 1e-3 };
 
 fn main() -> Result<(), Box<dyn Error>> {
-    let seconds: f64 = std::env::args().nth(1).map_or(Ok(20.0), |text| text.parse())?;
+    let generations: u64 = std::env::args().nth(1).map_or(Ok(60), |text| text.parse())?;
     let dataset = Dataset::load("datasets/dfg.bin".as_ref())?;
     let (grammar, profile) = (Grammar::find("shader")?, Profile::find("gcn")?);
     let settings = Settings::default();
     let problem = Problem::new(&dataset, &grammar, &profile, &settings);
     let mut search = Search::new(settings);
     let start = Instant::now();
-    while start.elapsed().as_secs_f64() < seconds {
+    for _ in 0..generations {
         search.advance(&problem);
     }
     let (counts, elapsed) = (search.counts(), start.elapsed().as_secs_f64());
@@ -37,7 +37,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     let drafts: Vec<_> = search.archive().members().iter().map(|m| m.draft.clone()).collect();
     let (mut fits, mut operations) = (0, 0);
     let start = Instant::now();
-    while start.elapsed().as_secs_f64() < seconds / 2.0 {
+    while start.elapsed().as_secs_f64() < 5.0 {
         let mut draft = drafts[fits % drafts.len()].clone();
         draft.consts.iter_mut().for_each(|c| *c *= rng.random_range(0.7f32..1.4));
         operations += draft.instrs.len();

@@ -5,7 +5,7 @@
 
 mod programs;
 
-use lgp::eval::{CHUNK, Evaluator, Samples, Tape, Values};
+use lgp::eval::{CHUNK, Evaluator, Isa, Samples, Tape, Values};
 use lgp::op::Op;
 use lgp::program::{Arg, Program};
 use rand::SeedableRng;
@@ -25,10 +25,10 @@ fn shortest(seconds: f64, mut run: impl FnMut()) -> f64 {
 }
 
 /// G op-evaluations a second, preparation included.
-fn throughput(programs: &[Program], samples: &Samples) -> f64 {
-    let (mut evaluator, mut tape) = (Evaluator::default(), Tape::default());
+fn throughput(isa: Isa, programs: &[Program], samples: &Samples) -> f64 {
+    let (mut evaluator, mut tape) = (Evaluator::new(isa), Tape::default());
     let mut values = Values::default();
-    let seconds = shortest(0.4, || {
+    let seconds = shortest(1.0, || {
         for program in programs {
             tape.prepare(program);
             evaluator.outputs_into(&tape, samples, &mut values);
@@ -46,7 +46,7 @@ fn against_samples() -> Vec<Line> {
         let point = |&rows: &usize| {
             let programs = set.programs(if rows > 20_000 { 10 } else { 100 });
             let samples = Samples::new(&programs::samples(rows), programs::INPUTS);
-            (rows as f64, throughput(&programs, &samples))
+            (rows as f64, throughput(Isa::best(), &programs, &samples))
         };
         (set.name, sizes.iter().map(point).collect())
     };
@@ -64,7 +64,7 @@ fn against_length() -> Vec<Line> {
                 programs.extend(set.tree(&mut rng, nodes));
             }
             let operations = programs::operations(&programs) as f64 / 40.0;
-            points.push((operations, throughput(&programs, &samples)));
+            points.push((operations, throughput(Isa::best(), &programs, &samples)));
         }
         (set.name, points)
     };
@@ -155,10 +155,12 @@ fn print_sets() {
         let mut tape = Tape::default();
         let preparation = shortest(0.3, || programs.iter().for_each(|p| tape.prepare(p)));
         let (programs_count, operations) = (programs.len(), programs::operations(&programs));
+        for isa in Isa::available() {
+            let speed = throughput(isa, &programs, &samples);
+            println!("{:10} {isa:9} {speed:.2} G/s", set.name);
+        }
         println!(
-            "{:10} {:.2} G/s, {:.1} operations, preparation {:.0} ns",
-            set.name,
-            throughput(&programs, &samples),
+            "           {:.1} operations, preparation {:.0} ns",
             operations as f64 / programs_count as f64,
             preparation * 1e9 / programs_count as f64,
         );

@@ -6,6 +6,9 @@
 //! [`Program::evaluate`](crate::program::Program::evaluate). Nothing is "protected": what is
 //! not finite is reported as such.
 //!
+//! The same programs in other arithmetics, sample by sample, are an [`Arithmetic`] each: [`Double`],
+//! [`Half`], and [`Bounds`] on boxes.
+//!
 //! ```
 //! use lgp::dataset::Split;
 //! use lgp::eval::{Evaluator, Samples, Tape};
@@ -53,7 +56,8 @@ use samples::Block;
 /// sums, so that they too have the same bits at every width.
 pub const BLOCK: usize = 16;
 
-/// Samples of a chunk: a program's slots and columns of this length fit the first-level cache.
+/// Samples of a chunk: a program's slots and columns of this length fit the first-level cache, and
+/// what a step costs once is little beside them (`results/eval` has the measurement).
 pub const CHUNK: usize = 1024;
 
 /// Runs tapes; owns the memory that they need.

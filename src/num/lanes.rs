@@ -1,4 +1,4 @@
-//! Registers of `f32` lanes: the trait, one lane, and several registers as one.
+//! Registers of `f32` lanes: the trait, and one lane.
 
 use std::ops::{Add, Div, Mul, Sub};
 
@@ -93,8 +93,11 @@ pub trait Lanes:
     fn scale_by_power_of_two(self, n: Self) -> Self {
         let n = n.to_int_bits();
         let half = n.shift_right::<1>();
-        let power = |n: Self| n.add_bits(n.bits(127)).shift_left::<23>();
-        self * power(half) * power(n.sub_bits(half))
+        let rest = n.sub_bits(half);
+        let bias = n.bits(127);
+        let powers =
+            (half.add_bits(bias).shift_left::<23>(), rest.add_bits(bias).shift_left::<23>());
+        self * powers.0 * powers.1
     }
     /// Splits a positive finite value into `(e, m)` with `self = 2^e · m` and `m` in [√½, √2).
     #[inline(always)]
@@ -229,117 +232,4 @@ impl Lanes for f32 {
     fn int_to_float(self) -> Self {
         self.to_bits() as i32 as f32
     }
-}
-
-/// `N` registers side by side, as one register of `N` times the width.
-#[derive(Clone, Copy)]
-pub struct Many<L, const N: usize>([L; N]);
-
-impl<const N: usize> Many<f32, N> {
-    /// The lanes, first to last.
-    pub fn to_array(self) -> [f32; N] {
-        self.0
-    }
-}
-
-impl<L: Lanes, const N: usize> Many<L, N> {
-    #[inline(always)]
-    fn each(self, f: impl Fn(L) -> L) -> Self {
-        Many(std::array::from_fn(|i| f(self.0[i])))
-    }
-    #[inline(always)]
-    fn zip(self, other: Self, f: impl Fn(L, L) -> L) -> Self {
-        Many(std::array::from_fn(|i| f(self.0[i], other.0[i])))
-    }
-}
-
-macro_rules! operators_by_register {
-    ($($operator:ident $method:ident),*) => {$(
-        impl<L: Lanes, const N: usize> $operator for Many<L, N> {
-            type Output = Self;
-            #[inline(always)]
-            fn $method(self, other: Self) -> Self {
-                self.zip(other, |a, b| a.$method(b))
-            }
-        }
-    )*};
-}
-operators_by_register!(Add add, Sub sub, Mul mul, Div div);
-
-macro_rules! by_register {
-    (unary $($name:ident),*) => {$(
-        #[inline(always)]
-        fn $name(self) -> Self {
-            self.each(L::$name)
-        }
-    )*};
-    (binary $($name:ident),*) => {$(
-        #[inline(always)]
-        fn $name(self, other: Self) -> Self {
-            self.zip(other, L::$name)
-        }
-    )*};
-}
-
-impl<L: Lanes, const N: usize> Lanes for Many<L, N> {
-    const WIDTH: usize = N * L::WIDTH;
-    type Mask = [L::Mask; N];
-
-    #[inline(always)]
-    unsafe fn load(from: *const f32) -> Self {
-        // SAFETY: the caller promises N * L::WIDTH readable values.
-        Many(std::array::from_fn(|i| unsafe { L::load(from.add(i * L::WIDTH)) }))
-    }
-    #[inline(always)]
-    unsafe fn broadcast(value: f32) -> Self {
-        // SAFETY: the caller promises that the processor has L.
-        Many([unsafe { L::broadcast(value) }; N])
-    }
-    #[inline(always)]
-    unsafe fn store(self, to: *mut f32) {
-        for (i, register) in self.0.into_iter().enumerate() {
-            // SAFETY: the caller promises N * L::WIDTH writable values.
-            unsafe { register.store(to.add(i * L::WIDTH)) }
-        }
-    }
-    #[inline(always)]
-    fn splat(self, value: f32) -> Self {
-        Many([self.0[0].splat(value); N])
-    }
-    #[inline(always)]
-    fn fma(self, factor: Self, addend: Self) -> Self {
-        Many(std::array::from_fn(|i| self.0[i].fma(factor.0[i], addend.0[i])))
-    }
-    #[inline(always)]
-    fn lt(self, other: Self) -> Self::Mask {
-        std::array::from_fn(|i| self.0[i].lt(other.0[i]))
-    }
-    #[inline(always)]
-    fn eq(self, other: Self) -> Self::Mask {
-        std::array::from_fn(|i| self.0[i].eq(other.0[i]))
-    }
-    #[inline(always)]
-    fn is_nan(self) -> Self::Mask {
-        std::array::from_fn(|i| self.0[i].is_nan())
-    }
-    #[inline(always)]
-    fn select(mask: Self::Mask, yes: Self, no: Self) -> Self {
-        Many(std::array::from_fn(|i| L::select(mask[i], yes.0[i], no.0[i])))
-    }
-    #[inline(always)]
-    fn shift_left<const S: i32>(self) -> Self {
-        self.each(|l| l.shift_left::<S>())
-    }
-    #[inline(always)]
-    fn shift_right<const S: i32>(self) -> Self {
-        self.each(|l| l.shift_right::<S>())
-    }
-    #[inline(always)]
-    fn exponent_and_mantissa(self) -> (Self, Self) {
-        let parts = self.0.map(L::exponent_and_mantissa);
-        (Many(parts.map(|(e, _)| e)), Many(parts.map(|(_, m)| m)))
-    }
-    by_register!(unary sqrt, floor, round, to_int_bits, int_to_float);
-    by_register!(binary at_least, at_most, bit_and, bit_or, bit_xor, add_bits, sub_bits, minimum, maximum,
-        scale_by_power_of_two, logarithm_special_cases);
 }
