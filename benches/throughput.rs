@@ -92,7 +92,9 @@ fn svg(abscissa: &str, lines: &[Line]) -> String {
     let y = |value: f64| 360.0 - 340.0 * value / top;
     let mut body = String::new();
     let mut add = |piece: String| body.push_str(&(piece + "\n"));
-    for power in low.ceil() as i32..=high.floor() as i32 {
+    // Labels of six digits need the room of two octaves.
+    let octaves = if high - low > 8.0 { 2 } else { 1 };
+    for power in (low.ceil() as i32..=high.floor() as i32).step_by(octaves) {
         let (value, at) = (2f64.powi(power), x(2f64.powi(power)));
         add(format!(r##"<path d="M{at:.1} 20V360" stroke="#ddd"/>"##));
         add(format!(r#"<text x="{at:.1}" y="376" text-anchor="middle">{value}</text>"#));
@@ -102,6 +104,7 @@ fn svg(abscissa: &str, lines: &[Line]) -> String {
         add(format!(r##"<path d="M50 {at:.1}H620" stroke="#ddd"/>"##));
         add(format!(r#"<text x="44" y="{:.1}" text-anchor="end">{value}</text>"#, at + 4.0));
     }
+    let mut taken: Vec<f64> = Vec::new();
     for ((name, points), color) in lines.iter().zip(COLORS) {
         let corners: Vec<_> =
             points.iter().map(|p| format!("{:.1},{:.1}", x(p.0), y(p.1))).collect();
@@ -109,7 +112,11 @@ fn svg(abscissa: &str, lines: &[Line]) -> String {
         add(format!(
             r#"<polyline points="{corners}" fill="none" stroke="{color}" stroke-width="2"/>"#
         ));
-        let end = y(points[points.len() - 1].1) + 4.0;
+        let mut end = y(points[points.len() - 1].1) + 4.0;
+        while taken.iter().any(|other| (end - other).abs() < 12.0) {
+            end += 1.0;
+        }
+        taken.push(end);
         add(format!(r#"<text x="626" y="{end:.1}" fill="{color}">{name}</text>"#));
     }
     add(format!(r#"<text x="335" y="396" text-anchor="middle">{abscissa}</text>"#));
