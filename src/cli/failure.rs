@@ -1,5 +1,4 @@
-use crate::cost::ProfileError;
-use crate::grammar::GrammarError;
+use crate::grammar::FileError;
 use crate::search::RecordError;
 use crate::{dataset, program, targets};
 use std::io::Write;
@@ -86,14 +85,8 @@ impl From<targets::Error> for Failure {
     }
 }
 
-impl From<GrammarError> for Failure {
-    fn from(error: GrammarError) -> Failure {
-        Failure::new(Exit::Input, error)
-    }
-}
-
-impl From<ProfileError> for Failure {
-    fn from(error: ProfileError) -> Failure {
+impl From<FileError> for Failure {
+    fn from(error: FileError) -> Failure {
         Failure::new(Exit::Input, error)
     }
 }

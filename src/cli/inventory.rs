@@ -1,6 +1,8 @@
 //! What the folders of a project hold.
 
+use crate::cost::Profile;
 use crate::dataset::{Column, Dataset, load_incumbents};
+use crate::grammar::Grammar;
 use serde::Serialize;
 use std::path::{Path, PathBuf};
 
@@ -34,11 +36,21 @@ pub(super) fn incumbents() -> Vec<Entry> {
 }
 
 pub(super) fn grammars() -> Vec<Entry> {
-    entries("grammar", "ron", first_comment)
+    let described = |name| Grammar::find(name).map(|grammar| grammar.description);
+    let built_in = Grammar::built_in().map(|name| built_in(name, described(name).ok()));
+    built_in.chain(entries("grammar", "ron", first_comment)).collect()
 }
 
 pub(super) fn gpu_profiles() -> Vec<Entry> {
-    entries("grammar/gpu", "ron", first_comment)
+    let described = |name| Profile::find(name).map(|profile| profile.description);
+    let built_in = Profile::built_in().map(|name| built_in(name, described(name).ok()));
+    built_in.chain(entries("grammar/gpu", "ron", first_comment)).collect()
+}
+
+/// What the program brings along, to be named without a path.
+fn built_in(name: &str, description: Option<String>) -> Entry {
+    let description = format!("built in: {}", description.unwrap_or_default());
+    Entry { path: name.into(), description, usable: true }
 }
 
 fn entries(

@@ -5,7 +5,7 @@
 
 mod profile;
 
-pub use profile::{Profile, ProfileError};
+pub use profile::Profile;
 
 use crate::op::Op;
 use crate::program::{Arg, Draft, use_counts};

@@ -88,8 +88,8 @@ pub enum Invalid {
     NotFinite { index: usize, value: f32 },
     #[error("a program needs at least one output")]
     NoOutput,
-    #[error("{instructions} instructions are more than {}", u16::MAX)]
-    TooLong { instructions: usize },
+    #[error("{count} {what} are more than {}", u16::MAX)]
+    TooMany { count: usize, what: &'static str },
 }
 
 /// Where in a draft an argument stands.
@@ -153,8 +153,13 @@ impl Draft {
     }
 
     fn check(&self) -> Result<(), Invalid> {
-        if self.instrs.len() > usize::from(u16::MAX) {
-            return Err(Invalid::TooLong { instructions: self.instrs.len() });
+        let counts = [
+            (self.inputs, "inputs"),
+            (self.consts.len(), "constants"),
+            (self.instrs.len(), "instructions"),
+        ];
+        if let Some((count, what)) = counts.into_iter().find(|c| c.0 > usize::from(u16::MAX)) {
+            return Err(Invalid::TooMany { count, what });
         }
         if self.outputs.is_empty() {
             return Err(Invalid::NoOutput);

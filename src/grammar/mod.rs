@@ -1,17 +1,21 @@
 //! What a search may write: operations and how often each is tried, lengths, penalties.
 
+pub(crate) mod file;
+
+pub use file::FileError;
+
 use crate::op::Op;
 use crate::program::Draft;
-use crate::suggest::did_you_mean;
 use serde::Deserialize;
 use std::collections::BTreeMap;
-use std::path::Path;
+
+const KIND: &str = "grammar";
 
 /// The grammars that come with the program, by name.
 const BUILT_IN: [(&str, &str); 3] = [
-    ("shader", include_str!("../grammar/shader.ron")),
-    ("exp2", include_str!("../grammar/exp2.ron")),
-    ("polynomial", include_str!("../grammar/polynomial.ron")),
+    ("shader", include_str!("../../grammar/shader.ron")),
+    ("exp2", include_str!("../../grammar/exp2.ron")),
+    ("polynomial", include_str!("../../grammar/polynomial.ron")),
 ];
 
 /// The most instructions a grammar may allow.
@@ -27,21 +31,6 @@ pub struct Grammar {
     pub max_instructions: usize,
     /// Cycles that an operation is charged beyond what it costs, to discourage it.
     pub penalties: Vec<(Op, f64)>,
-}
-
-/// A grammar that cannot be used.
-#[derive(Debug, thiserror::Error)]
-pub enum GrammarError {
-    #[error(
-        "no grammar is called `{name}`{hint} (built in: {known}; or give the path of a .ron file)"
-    )]
-    Unknown { name: String, hint: String, known: String },
-    #[error("grammar {path}: {reason}")]
-    Unreadable { path: String, reason: std::io::Error },
-    #[error("grammar {path}, line {line}, column {column}: {reason}")]
-    Syntax { path: String, line: usize, column: usize, reason: String },
-    #[error("grammar {path}: {reason}")]
-    Content { path: String, reason: String },
 }
 
 #[derive(Deserialize)]
@@ -62,33 +51,15 @@ impl Grammar {
     }
 
     /// A built-in grammar by name, or one from a `.ron` file.
-    pub fn find(name_or_path: &str) -> Result<Grammar, GrammarError> {
-        if let Some((name, text)) = BUILT_IN.iter().find(|(name, _)| *name == name_or_path) {
-            return Grammar::parse(name, text);
-        }
-        let path = Path::new(name_or_path);
-        if !path.exists() && path.extension().is_none() {
-            let known: Vec<&str> = Grammar::built_in().collect();
-            return Err(GrammarError::Unknown {
-                name: name_or_path.to_owned(),
-                hint: did_you_mean(name_or_path, known.iter().copied()),
-                known: known.join(", "),
-            });
-        }
-        let text = std::fs::read_to_string(path)
-            .map_err(|reason| GrammarError::Unreadable { path: name_or_path.to_owned(), reason })?;
-        Grammar::parse(name_or_path, &text)
+    pub fn find(name_or_path: &str) -> Result<Grammar, FileError> {
+        Grammar::parse(name_or_path, &file::find(KIND, name_or_path, &BUILT_IN)?)
     }
 
     /// A grammar from the text of a `.ron` file called `name`.
-    pub fn parse(name: &str, text: &str) -> Result<Grammar, GrammarError> {
-        let file: File = ron::from_str(text).map_err(|error| GrammarError::Syntax {
-            path: name.to_owned(),
-            line: error.span.start.line,
-            column: error.span.start.col,
-            reason: error.code.to_string(),
-        })?;
-        let refuse = |reason: String| GrammarError::Content { path: name.to_owned(), reason };
+    pub fn parse(name: &str, text: &str) -> Result<Grammar, FileError> {
+        let file: File = file::parse(KIND, name, text)?;
+        let refuse =
+            |reason: String| FileError::Content { kind: KIND, path: name.to_owned(), reason };
         if file.operations.is_empty() {
             return Err(refuse(
                 "`operations` is empty; name at least one, as in \"add\": 1".into(),
@@ -121,10 +92,7 @@ fn named_operations(
 ) -> Result<Vec<(Op, f64)>, String> {
     let mut operations = Vec::new();
     for (name, value) in values {
-        let Some(op) = Op::from_name(&name) else {
-            let hint = did_you_mean(&name, Op::ALL.iter().map(|op| op.name()));
-            return Err(format!("unknown operation \"{name}\"{hint}"));
-        };
+        let op = file::operation(&name)?;
         if !valid(value) {
             return Err(format!("\"{name}\": {value} must be a positive number"));
         }

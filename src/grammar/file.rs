@@ -1,0 +1,71 @@
+//! Settings in `.ron` files, some of which come with the program: grammars, GPU profiles.
+
+use crate::op::Op;
+use crate::suggest::did_you_mean;
+use serde::de::DeserializeOwned;
+use std::borrow::Cow;
+use std::path::Path;
+
+/// A settings file that cannot be used; `kind` is what it should be.
+#[derive(Debug, thiserror::Error)]
+pub enum FileError {
+    #[error(
+        "no {kind} is called `{name}`{hint} (built in: {known}; or give the path of a .ron file)"
+    )]
+    Unknown { kind: &'static str, name: String, hint: String, known: String },
+    #[error("{kind} {path}: {reason}")]
+    Unreadable { kind: &'static str, path: String, reason: std::io::Error },
+    #[error("{kind} {path}, line {line}, column {column}: {reason}")]
+    Syntax { kind: &'static str, path: String, line: usize, column: usize, reason: String },
+    #[error("{kind} {path}: {reason}")]
+    Content { kind: &'static str, path: String, reason: String },
+}
+
+/// The text of a file that is built in, by name, or that stands at a path.
+pub(crate) fn find<'a>(
+    kind: &'static str,
+    name_or_path: &str,
+    built_in: &[(&str, &'a str)],
+) -> Result<Cow<'a, str>, FileError> {
+    if let Some((_, text)) = built_in.iter().find(|(name, _)| *name == name_or_path) {
+        return Ok(Cow::Borrowed(text));
+    }
+    let path = Path::new(name_or_path);
+    if !path.exists() && path.extension().is_none() {
+        let known: Vec<&str> = built_in.iter().map(|(name, _)| *name).collect();
+        return Err(FileError::Unknown {
+            kind,
+            name: name_or_path.to_owned(),
+            hint: did_you_mean(name_or_path, known.iter().copied()),
+            known: known.join(", "),
+        });
+    }
+    std::fs::read_to_string(path).map(Cow::Owned).map_err(|reason| FileError::Unreadable {
+        kind,
+        path: name_or_path.to_owned(),
+        reason,
+    })
+}
+
+/// The content of a file.
+pub(crate) fn parse<T: DeserializeOwned>(
+    kind: &'static str,
+    path: &str,
+    text: &str,
+) -> Result<T, FileError> {
+    ron::from_str(text).map_err(|error| FileError::Syntax {
+        kind,
+        path: path.to_owned(),
+        line: error.span.start.line,
+        column: error.span.start.col,
+        reason: error.code.to_string(),
+    })
+}
+
+/// The operation that a file names.
+pub(crate) fn operation(name: &str) -> Result<Op, String> {
+    Op::from_name(name).ok_or_else(|| {
+        let hint = did_you_mean(name, Op::ALL.iter().map(|op| op.name()));
+        format!("unknown operation \"{name}\"{hint}")
+    })
+}
