@@ -3,8 +3,9 @@
 use super::{Exit, Failure};
 use crate::dataset::{Column, Dataset, replace_file};
 use crate::emit::{self, Language, Snippet};
+use crate::eval::OutputError;
 use crate::report::plot::{self, FrontPlot, PlotError, Theme};
-use crate::report::table::{Published, front_table};
+use crate::report::table::{Published, error_text, front_table};
 use crate::search::{Front, FrontMember, Run, Search, TracePoint, trace_csv};
 use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
@@ -140,15 +141,12 @@ pub fn snippet(run: &Run, member: &FrontMember, language: Language) -> String {
         ),
         format!("domain: {}", domains(&run.inputs)),
         format!("cost: {} cycles on {}", member.cost, run.gpu),
-        format!("error: RMSE {:.5}, max {:.5} on the search split", search.rmse, search.max),
-        format!(
-            "       RMSE {:.5}, max {:.5} on the validation split",
-            validation.rmse, validation.max
-        ),
+        format!("error: {} on the search split", described(search)),
+        format!("       {} on the validation split", described(validation)),
     ];
     if names.outputs.len() > 1 {
         for (output, error) in names.outputs.iter().zip(&member.score.search) {
-            header.push(format!("       {output}: RMSE {:.5}, max {:.5}", error.rmse, error.max));
+            header.push(format!("       {output}: {}", described(*error)));
         }
     }
     header.push("finite on every sample of both splits".to_owned());
@@ -157,6 +155,10 @@ pub fn snippet(run: &Run, member: &FrontMember, language: Language) -> String {
         language,
         &Snippet { program: &member.program, names: &names, function: &run.name, header: &header },
     )
+}
+
+fn described(error: OutputError) -> String {
+    format!("RMSE {}, max {}", error_text(error.rmse), error_text(error.max))
 }
 
 fn domains(inputs: &[Column]) -> String {

@@ -63,7 +63,7 @@ fn incumbent_row(known: &Published, front: &Front) -> String {
             "dominated by {} ({} cycles, RMSE {})",
             i + 1,
             member.cost,
-            error(member.search_error().rmse).trim()
+            error_text(member.search_error().rmse)
         ),
         None => "not dominated".to_owned(),
     };
@@ -75,11 +75,16 @@ pub fn dominating<'a>(known: &Published, front: &'a Front) -> Option<(usize, &'a
     front.members.iter().enumerate().find(|(_, member)| member.dominates(&known.member))
 }
 
-/// Three significant digits or more, in eight columns.
+/// An error in eight columns.
 fn error(value: f64) -> String {
+    format!("{:>8}", error_text(value))
+}
+
+/// An error with five decimals, or where that would say little, two digits.
+pub fn error_text(value: f64) -> String {
     match value {
-        0.0 => format!("{:>8}", "0"),
-        v if !(1e-4..1e3).contains(&v) => format!("{v:>8.1e}"),
-        v => format!("{v:>8.5}"),
+        0.0 => "0".to_owned(),
+        v if !(1e-4..1e3).contains(&v) => format!("{v:.1e}"),
+        v => format!("{v:.5}"),
     }
 }

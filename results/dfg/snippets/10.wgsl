@@ -2,16 +2,16 @@
 // data: dfg (7b034b9b6a989aa5), seed 1, lgp 0.1.0
 // domain: n_dot_v in [0, 1], roughness in [0, 1]
 // cost: 9 cycles on gcn
-// error: RMSE 0.02138, max 0.11761 on the search split
-//        RMSE 0.02135, max 0.14168 on the validation split
-//        scale: RMSE 0.02596, max 0.11761
-//        bias: RMSE 0.01550, max 0.08746
+// error: RMSE 0.02115, max 0.14958 on the search split
+//        RMSE 0.02112, max 0.17578 on the validation split
+//        scale: RMSE 0.02713, max 0.14958
+//        bias: RMSE 0.01259, max 0.06797
 // finite on every sample of both splits
-// t0 = 0.94 - 0.62*n_dot_v; t1 = (max(n_dot_v, roughness) + 1.7*n_dot_v)*t0 - 0.988; scale = min((0.825 - 1.37*roughness)*(n_dot_v + t0*t1) + 0.781, 0.985); bias = t1^2 + 0.004
+// t0 = 0.83*n_dot_v - 0.91; t1 = t0*(t0 + 1.1*max(n_dot_v, roughness)) + 0.165; bias = t1^2 + 0.005; scale = min((0.853 - 1.4*roughness)*(n_dot_v + t0*t1) + 0.7752, 0.983)
 fn dfg(n_dot_v: f32, roughness: f32) -> vec2<f32> {
-    let t0 = 0.94 - 0.62*n_dot_v;
-    let t1 = (max(n_dot_v, roughness) + 1.7*n_dot_v)*t0 - 0.988;
-    let scale = min((0.825 - 1.37*roughness)*(n_dot_v + t0*t1) + 0.781, 0.985);
-    let bias = t1*t1 + 0.004;
+    let t0 = 0.83*n_dot_v - 0.91;
+    let t1 = t0*(t0 + 1.1*max(n_dot_v, roughness)) + 0.165;
+    let bias = t1*t1 + 0.005;
+    let scale = min((0.853 - 1.4*roughness)*(n_dot_v + t0*t1) + 0.7752, 0.983);
     return vec2<f32>(scale, bias);
 }

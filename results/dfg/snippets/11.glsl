@@ -7,13 +7,13 @@
 //        scale: RMSE 0.01687, max 0.09732
 //        bias: RMSE 0.01163, max 0.05956
 // finite on every sample of both splits
-// t0 = roughness - 0.3*n_dot_v; t1 = 0.0229 - 0.026*max(n_dot_v, roughness); t2 = t1*(41.7 - 61.7*n_dot_v) + 0.029; bias = t1 + t2^2; t3 = t0*(n_dot_v*t0 + 0.08) - 0.889; scale = t3*(t3 + 1.224*bias) + 0.2202
+// t0 = 0.3*n_dot_v - roughness; t1 = 0.0229 - 0.026*max(n_dot_v, roughness); t2 = t1*(61.7*n_dot_v - 41.7) - 0.029; bias = t1 + t2^2; t3 = t0*(n_dot_v*t0 - 0.08) - 0.889; scale = t3*(t3 + 1.224*bias) + 0.2202
 vec2 dfg(float n_dot_v, float roughness) {
-    float t0 = roughness - 0.3*n_dot_v;
+    float t0 = 0.3*n_dot_v - roughness;
     float t1 = 0.0229 - 0.026*max(n_dot_v, roughness);
-    float t2 = t1*(41.7 - 61.7*n_dot_v) + 0.029;
+    float t2 = t1*(61.7*n_dot_v - 41.7) - 0.029;
     float bias = t1 + t2*t2;
-    float t3 = t0*(n_dot_v*t0 + 0.08) - 0.889;
+    float t3 = t0*(n_dot_v*t0 - 0.08) - 0.889;
     float scale = t3*(t3 + 1.224*bias) + 0.2202;
     return vec2(scale, bias);
 }

@@ -2,19 +2,19 @@
 // data: dfg (7b034b9b6a989aa5), seed 1, lgp 0.1.0
 // domain: n_dot_v in [0, 1], roughness in [0, 1]
 // cost: 14 cycles on gcn
-// error: RMSE 0.00956, max 0.09455 on the search split
-//        RMSE 0.00958, max 0.09512 on the validation split
-//        scale: RMSE 0.01043, max 0.04748
-//        bias: RMSE 0.00860, max 0.09455
+// error: RMSE 0.00848, max 0.11930 on the search split
+//        RMSE 0.00851, max 0.11079 on the validation split
+//        scale: RMSE 0.00997, max 0.06053
+//        bias: RMSE 0.00667, max 0.11930
 // finite on every sample of both splits
-// t0 = 1.2*roughness - 0.105; t1 = max(n_dot_v, t0); t2 = n_dot_v*(1.6*t1 - 3.4); t3 = (0.346 - 0.163*t1)*(t2 - 0.7*roughness - 3.34*t1) + 0.9817; bias = t3^2; scale = 1.1345 - (t0*(n_dot_v + t2*(n_dot_v - 1.4*roughness)) + 0.346)*(3.05*bias + 0.3784)
+// t0 = 1.44*roughness - 0.11; t1 = max(n_dot_v, t0); t2 = n_dot_v*(t1*(6.1 - 2.4*roughness) - 7.5) + 0.59; t3 = (0.1822 - 0.069*t1)*(t2 - 6.04*t1) + 0.8745; bias = t3^2; scale = (t0*(t1 + t2*(n_dot_v - 1.8*roughness)) + 0.86)*(-1.236*bias - 0.1812) + 1.1625
 vec2 dfg(float n_dot_v, float roughness) {
-    float t0 = 1.2*roughness - 0.105;
+    float t0 = 1.44*roughness - 0.11;
     float t1 = max(n_dot_v, t0);
-    float t2 = n_dot_v*(1.6*t1 - 3.4);
-    float t3 = (0.346 - 0.163*t1)*(t2 - 0.7*roughness - 3.34*t1) + 0.9817;
+    float t2 = n_dot_v*(t1*(6.1 - 2.4*roughness) - 7.5) + 0.59;
+    float t3 = (0.1822 - 0.069*t1)*(t2 - 6.04*t1) + 0.8745;
     float bias = t3*t3;
-    float t4 = t0*(n_dot_v + t2*(n_dot_v - 1.4*roughness)) + 0.346;
-    float scale = 1.1345 - t4*(3.05*bias + 0.3784);
+    float t4 = (t0*(t1 + t2*(n_dot_v - 1.8*roughness)) + 0.86)*(-1.236*bias - 0.1812);
+    float scale = t4 + 1.1625;
     return vec2(scale, bias);
 }

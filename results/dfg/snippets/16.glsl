@@ -2,19 +2,20 @@
 // data: dfg (7b034b9b6a989aa5), seed 1, lgp 0.1.0
 // domain: n_dot_v in [0, 1], roughness in [0, 1]
 // cost: 15 cycles on gcn
-// error: RMSE 0.00841, max 0.10163 on the search split
-//        RMSE 0.00844, max 0.10378 on the validation split
-//        scale: RMSE 0.00941, max 0.05379
-//        bias: RMSE 0.00727, max 0.10163
+// error: RMSE 0.00812, max 0.10130 on the search split
+//        RMSE 0.00816, max 0.11971 on the validation split
+//        scale: RMSE 0.00933, max 0.06978
+//        bias: RMSE 0.00669, max 0.10130
 // finite on every sample of both splits
-// t0 = 1.2*roughness - 0.11; t1 = max(n_dot_v, t0); t2 = n_dot_v*(2.8*t1 - 5.3); t3 = (0.209 - 0.095*t1)*(t2 - 0.81*t0 - 5.7*t1) + 0.958; bias = t3^2; scale = (t0*(t1 + (t2 + 0.5)*(n_dot_v - 1.8*roughness)) + 0.51)*(-2.1*bias - 0.2525) + 1.136
+// t0 = 1.3*roughness - 0.1; t1 = max(n_dot_v, t0); t2 = 3*t1 - t0; t3 = n_dot_v*(3.8*t2 - 16.4) + 1.06; t4 = (0.0671 - 0.0288*t1)*(t3 - 18.33*t1) + 0.8985; bias = t4^2; scale = (t0*(t2 + (n_dot_v - 1.9*roughness)*t3) + 1.55)*(bias*(0.29*n_dot_v - 0.705) - 0.0713) + 1.1125
 vec2 dfg(float n_dot_v, float roughness) {
-    float t0 = 1.2*roughness - 0.11;
+    float t0 = 1.3*roughness - 0.1;
     float t1 = max(n_dot_v, t0);
-    float t2 = n_dot_v*(2.8*t1 - 5.3);
-    float t3 = (0.209 - 0.095*t1)*(t2 - 0.81*t0 - 5.7*t1) + 0.958;
-    float bias = t3*t3;
-    float t4 = t0*(t1 + (t2 + 0.5)*(n_dot_v - 1.8*roughness)) + 0.51;
-    float scale = t4*(-2.1*bias - 0.2525) + 1.136;
+    float t2 = 3.0*t1 - t0;
+    float t3 = n_dot_v*(3.8*t2 - 16.4) + 1.06;
+    float t4 = (0.0671 - 0.0288*t1)*(t3 - 18.33*t1) + 0.8985;
+    float bias = t4*t4;
+    float t5 = t0*(t2 + (n_dot_v - 1.9*roughness)*t3) + 1.55;
+    float scale = t5*(bias*(0.29*n_dot_v - 0.705) - 0.0713) + 1.1125;
     return vec2(scale, bias);
 }

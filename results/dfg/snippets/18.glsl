@@ -2,22 +2,18 @@
 // data: dfg (7b034b9b6a989aa5), seed 1, lgp 0.1.0
 // domain: n_dot_v in [0, 1], roughness in [0, 1]
 // cost: 17 cycles on gcn
-// error: RMSE 0.00757, max 0.08875 on the search split
-//        RMSE 0.00765, max 0.09072 on the validation split
-//        scale: RMSE 0.00943, max 0.04485
-//        bias: RMSE 0.00507, max 0.08875
+// error: RMSE 0.00658, max 0.06751 on the search split
+//        RMSE 0.00658, max 0.07564 on the validation split
+//        scale: RMSE 0.00684, max 0.04792
+//        bias: RMSE 0.00630, max 0.06751
 // finite on every sample of both splits
-// t0 = -0.16*roughness - n_dot_v; t1 = 0.066 - 0.75*t0; t2 = max(roughness, t1); t3 = t1*(t2*(n_dot_v + 1) - 4.1) + 0.59; t4 = 0.664 - 0.32*t2; t5 = t4*(t3*t4 + (0.31 - 1.95*t2)) + 0.743; t6 = t5^2; scale = (((1.6 - 11*roughness)*t3 + 0.75)*(roughness + 0.27*t0) + 1)*(-0.0725 - t6) + 1.077; bias = t6 + 0.0013
+// t0 = max(roughness - 0.41*n_dot_v, 0.04); bias = exp2(t0*(n_dot_v - t0*(15.73 - 11.8*t0)) - 0.091 - n_dot_v*(7.8*n_dot_v + 5.9)); t1 = n_dot_v*(roughness*t0 - 0.018); t2 = 0.8845 - 0.96*t1; scale = t2*(t2 + bias*(-25.4*t1 - 1.172)) + 0.1994
 vec2 dfg(float n_dot_v, float roughness) {
-    float t0 = -0.16*roughness - n_dot_v;
-    float t1 = 0.066 - 0.75*t0;
-    float t2 = max(roughness, t1);
-    float t3 = t1*(t2*(n_dot_v + 1.0) - 4.1) + 0.59;
-    float t4 = 0.664 - 0.32*t2;
-    float t5 = t4*(t3*t4 + (0.31 - 1.95*t2)) + 0.743;
-    float t6 = t5*t5;
-    float t7 = ((1.6 - 11.0*roughness)*t3 + 0.75)*(roughness + 0.27*t0) + 1.0;
-    float scale = t7*(-0.0725 - t6) + 1.077;
-    float bias = t6 + 0.0013;
+    float t0 = max(roughness - 0.41*n_dot_v, 0.04);
+    float t1 = t0*(n_dot_v - t0*(15.73 - 11.8*t0)) - 0.091;
+    float bias = exp2(t1 - n_dot_v*(7.8*n_dot_v + 5.9));
+    float t2 = n_dot_v*(roughness*t0 - 0.018);
+    float t3 = 0.8845 - 0.96*t2;
+    float scale = t3*(t3 + bias*(-25.4*t2 - 1.172)) + 0.1994;
     return vec2(scale, bias);
 }

@@ -2,19 +2,19 @@
 // data: dfg (7b034b9b6a989aa5), seed 1, lgp 0.1.0
 // domain: n_dot_v in [0, 1], roughness in [0, 1]
 // cost: 18 cycles on gcn
-// error: RMSE 0.00676, max 0.04800 on the search split
-//        RMSE 0.00678, max 0.06360 on the validation split
-//        scale: RMSE 0.00786, max 0.04189
-//        bias: RMSE 0.00543, max 0.04800
+// error: RMSE 0.00605, max 0.06134 on the search split
+//        RMSE 0.00607, max 0.06430 on the validation split
+//        scale: RMSE 0.00685, max 0.03938
+//        bias: RMSE 0.00512, max 0.06134
 // finite on every sample of both splits
-// t0 = roughness - 0.5*n_dot_v; bias = exp2((t0^2 - 0.06)*(10*t0 - 13.5) - (n_dot_v*(7*n_dot_v + 6.2) + 0.874)); t1 = roughness - 0.27*n_dot_v; t2 = n_dot_v*(t1*max(t1, -0.03) - 0.0134); t3 = 0.8937 - 1.033*t2; scale = t3*(t3 + bias*(-24*t2 - 1.163)) + 0.1866
+// t0 = roughness - 0.41*n_dot_v; t1 = max(t0, 0.05); bias = exp2((t1 - 0.36*n_dot_v)*(-1 - t1*(13.3 - 10.3*t0)) - 0.01 - n_dot_v*(7.8*n_dot_v + 6.66)); t2 = n_dot_v*(roughness*t1 - 0.019); t3 = 0.884 - 0.96*t2; scale = t3*(t3 + bias*(-22.4*t2 - 1.178)) + 0.2
 vec2 dfg(float n_dot_v, float roughness) {
-    float t0 = roughness - 0.5*n_dot_v;
-    float t1 = (t0*t0 - 0.06)*(10.0*t0 - 13.5) - (n_dot_v*(7.0*n_dot_v + 6.2) + 0.874);
-    float bias = exp2(t1);
-    float t2 = roughness - 0.27*n_dot_v;
-    float t3 = n_dot_v*(t2*max(t2, -0.03) - 0.0134);
-    float t4 = 0.8937 - 1.033*t3;
-    float scale = t4*(t4 + bias*(-24.0*t3 - 1.163)) + 0.1866;
+    float t0 = roughness - 0.41*n_dot_v;
+    float t1 = max(t0, 0.05);
+    float t2 = (t1 - 0.36*n_dot_v)*(-1.0 - t1*(13.3 - 10.3*t0)) - 0.01;
+    float bias = exp2(t2 - n_dot_v*(7.8*n_dot_v + 6.66));
+    float t3 = n_dot_v*(roughness*t1 - 0.019);
+    float t4 = 0.884 - 0.96*t3;
+    float scale = t4*(t4 + bias*(-22.4*t3 - 1.178)) + 0.2;
     return vec2(scale, bias);
 }

@@ -1,20 +1,20 @@
 // n_dot_v, roughness → scale, bias
 // data: dfg (7b034b9b6a989aa5), seed 1, lgp 0.1.0
 // domain: n_dot_v in [0, 1], roughness in [0, 1]
-// cost: 20 cycles on gcn
-// error: RMSE 0.00641, max 0.05308 on the search split
-//        RMSE 0.00647, max 0.05988 on the validation split
-//        scale: RMSE 0.00758, max 0.04095
-//        bias: RMSE 0.00497, max 0.05308
+// cost: 19 cycles on gcn
+// error: RMSE 0.00580, max 0.05062 on the search split
+//        RMSE 0.00584, max 0.06108 on the validation split
+//        scale: RMSE 0.00675, max 0.04195
+//        bias: RMSE 0.00466, max 0.05062
 // finite on every sample of both splits
-// t0 = max(n_dot_v, roughness - 0.05); bias = exp2(t0*(roughness*(6*t0 - 7.6) - 2.82) - (n_dot_v*(6.1*n_dot_v + 3.1) + 0.09)); t1 = roughness + (0.088 - 0.27*n_dot_v); t2 = n_dot_v*(t1^2 - 0.056); t3 = 0.9909 - 0.7285*t2; scale = t3*(min(t3, 0.9799) + bias*(-15.6*t2 - 1.0504))
+// t0 = max(roughness - 0.26*n_dot_v, 0.04); t1 = t0 - 0.8*n_dot_v; bias = exp2(t1*(-1.1 - t0*(12.6 - 10*t1)) - 0.025 - n_dot_v*(9*n_dot_v + 7.03)); t2 = n_dot_v*(t0^2 - 0.019); t3 = 0.861 - 1.14*t2; scale = t3*(min(t3, 0.8425) + bias*(-31*t2 - 1.213)) + 0.2572
 vec2 dfg(float n_dot_v, float roughness) {
-    float t0 = max(n_dot_v, roughness - 0.05);
-    float t1 = t0*(roughness*(6.0*t0 - 7.6) - 2.82);
-    float bias = exp2(t1 - (n_dot_v*(6.1*n_dot_v + 3.1) + 0.09));
-    float t2 = roughness + (0.088 - 0.27*n_dot_v);
-    float t3 = n_dot_v*(t2*t2 - 0.056);
-    float t4 = 0.9909 - 0.7285*t3;
-    float scale = t4*(min(t4, 0.9799) + bias*(-15.6*t3 - 1.0504));
+    float t0 = max(roughness - 0.26*n_dot_v, 0.04);
+    float t1 = t0 - 0.8*n_dot_v;
+    float t2 = t1*(-1.1 - t0*(12.6 - 10.0*t1)) - 0.025 - n_dot_v*(9.0*n_dot_v + 7.03);
+    float bias = exp2(t2);
+    float t3 = n_dot_v*(t0*t0 - 0.019);
+    float t4 = 0.861 - 1.14*t3;
+    float scale = t4*(min(t4, 0.8425) + bias*(-31.0*t3 - 1.213)) + 0.2572;
     return vec2(scale, bias);
 }

@@ -1,19 +1,20 @@
 // n_dot_v, roughness → scale, bias
 // data: dfg (7b034b9b6a989aa5), seed 1, lgp 0.1.0
 // domain: n_dot_v in [0, 1], roughness in [0, 1]
-// cost: 22 cycles on gcn
-// error: RMSE 0.00565, max 0.05073 on the search split
-//        RMSE 0.00569, max 0.06655 on the validation split
-//        scale: RMSE 0.00658, max 0.04118
-//        bias: RMSE 0.00452, max 0.05073
+// cost: 21 cycles on gcn
+// error: RMSE 0.00553, max 0.05191 on the search split
+//        RMSE 0.00559, max 0.06643 on the validation split
+//        scale: RMSE 0.00646, max 0.04119
+//        bias: RMSE 0.00440, max 0.05191
 // finite on every sample of both splits
-// t0 = roughness - 0.32*n_dot_v; bias = exp2(t0^2*(8.5*t0 - 11.1) - (max(0.9*n_dot_v + 0.07, 1.6*(roughness - 0.8*n_dot_v)) + n_dot_v*(6.6*n_dot_v + 5.44))); t1 = n_dot_v*(roughness*max(roughness - 0.4*n_dot_v, 0.057) - 0.021); t2 = 0.889 - 0.94*t1; scale = t2*(t2 + bias*(-22.3*t1 - 1.177)) + 0.1912
+// t0 = roughness - 0.74*n_dot_v; t1 = roughness - 0.25*n_dot_v; bias = exp2(min(roughness + t0*(-1.5 - (11.5 - 9*t0)*t1), -0.05) - n_dot_v*(7*n_dot_v + 6.82) - t0); t2 = n_dot_v*(t1*max(t1, 0.04) - 0.023); t3 = 0.872 - 1.08*t2; scale = t3*(min(t3, 0.854) - bias*(28.5*t2 + 1.2)) + 0.2336
 vec2 dfg(float n_dot_v, float roughness) {
-    float t0 = roughness - 0.32*n_dot_v;
-    float t1 = max(0.9*n_dot_v + 0.07, 1.6*(roughness - 0.8*n_dot_v));
-    float bias = exp2(t0*t0*(8.5*t0 - 11.1) - (t1 + n_dot_v*(6.6*n_dot_v + 5.44)));
-    float t2 = n_dot_v*(roughness*max(roughness - 0.4*n_dot_v, 0.057) - 0.021);
-    float t3 = 0.889 - 0.94*t2;
-    float scale = t3*(t3 + bias*(-22.3*t2 - 1.177)) + 0.1912;
+    float t0 = roughness - 0.74*n_dot_v;
+    float t1 = roughness - 0.25*n_dot_v;
+    float t2 = min(roughness + t0*(-1.5 - (11.5 - 9.0*t0)*t1), -0.05);
+    float bias = exp2(t2 - n_dot_v*(7.0*n_dot_v + 6.82) - t0);
+    float t3 = n_dot_v*(t1*max(t1, 0.04) - 0.023);
+    float t4 = 0.872 - 1.08*t3;
+    float scale = t4*(min(t4, 0.854) - bias*(28.5*t3 + 1.2)) + 0.2336;
     return vec2(scale, bias);
 }

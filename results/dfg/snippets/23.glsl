@@ -1,22 +1,20 @@
 // n_dot_v, roughness → scale, bias
 // data: dfg (7b034b9b6a989aa5), seed 1, lgp 0.1.0
 // domain: n_dot_v in [0, 1], roughness in [0, 1]
-// cost: 25 cycles on gcn
-// error: RMSE 0.00563, max 0.06318 on the search split
-//        RMSE 0.00569, max 0.08369 on the validation split
-//        scale: RMSE 0.00660, max 0.03862
-//        bias: RMSE 0.00447, max 0.06318
+// cost: 22 cycles on gcn
+// error: RMSE 0.00517, max 0.04929 on the search split
+//        RMSE 0.00523, max 0.07288 on the validation split
+//        scale: RMSE 0.00598, max 0.03887
+//        bias: RMSE 0.00422, max 0.04929
 // finite on every sample of both splits
-// t0 = roughness - 0.57*n_dot_v; t1 = t0 - 0.05; t2 = t0 + max(n_dot_v, 2.7*t1); bias = exp2(t2*(t1*(0.66*t2 - 2.66) - 0.77) - (n_dot_v*(7*n_dot_v + 6.1) + 0.032)); t3 = roughness + (0.115 - 0.297*n_dot_v); t4 = n_dot_v*(max(t1, t3^2) - 0.059); t5 = 0.9928 - 0.7334*t4; scale = t5*(min(t5, 0.9775) + bias*(-12.99*t4 - 1.0267))
+// t0 = roughness - 0.86*n_dot_v; t1 = roughness - 0.255*n_dot_v; bias = exp2(min(t0*(-0.6 - (11.3 - 9*t0)*t1) + min(n_dot_v, 0.08), -0.04) - n_dot_v*(6.5*n_dot_v + 7.1) - t0); t2 = n_dot_v*(0.02 - t1*max(t1, 0.03)); t3 = 1.1*t2 + 0.87; scale = t3*(min(t3, 0.851) - bias*(1.2 - 29*t2)) + 0.2404
 vec2 dfg(float n_dot_v, float roughness) {
-    float t0 = roughness - 0.57*n_dot_v;
-    float t1 = t0 - 0.05;
-    float t2 = t0 + max(n_dot_v, 2.7*t1);
-    float t3 = t2*(t1*(0.66*t2 - 2.66) - 0.77) - (n_dot_v*(7.0*n_dot_v + 6.1) + 0.032);
-    float bias = exp2(t3);
-    float t4 = roughness + (0.115 - 0.297*n_dot_v);
-    float t5 = n_dot_v*(max(t1, t4*t4) - 0.059);
-    float t6 = 0.9928 - 0.7334*t5;
-    float scale = t6*(min(t6, 0.9775) + bias*(-12.99*t5 - 1.0267));
+    float t0 = roughness - 0.86*n_dot_v;
+    float t1 = roughness - 0.255*n_dot_v;
+    float t2 = min(t0*(-0.6 - (11.3 - 9.0*t0)*t1) + min(n_dot_v, 0.08), -0.04);
+    float bias = exp2(t2 - n_dot_v*(6.5*n_dot_v + 7.1) - t0);
+    float t3 = n_dot_v*(0.02 - t1*max(t1, 0.03));
+    float t4 = 1.1*t3 + 0.87;
+    float scale = t4*(min(t4, 0.851) - bias*(1.2 - 29.0*t3)) + 0.2404;
     return vec2(scale, bias);
 }

@@ -1,20 +1,20 @@
 // n_dot_v, roughness → scale, bias
 // data: dfg (7b034b9b6a989aa5), seed 1, lgp 0.1.0
 // domain: n_dot_v in [0, 1], roughness in [0, 1]
-// cost: 27 cycles on gcn
-// error: RMSE 0.00538, max 0.07738 on the search split
-//        RMSE 0.00541, max 0.09978 on the validation split
-//        scale: RMSE 0.00583, max 0.04148
-//        bias: RMSE 0.00489, max 0.07738
+// cost: 29 cycles on gcn
+// error: RMSE 0.00492, max 0.08449 on the search split
+//        RMSE 0.00493, max 0.08620 on the validation split
+//        scale: RMSE 0.00555, max 0.03029
+//        bias: RMSE 0.00420, max 0.08449
 // finite on every sample of both splits
-// t0 = n_dot_v + 0.04; t1 = 0.764*(roughness + 0.515*n_dot_v); bias = exp2((-6.3*t0 - 6.3)*max(t0, t1) + 0.233); t2 = 0.66*roughness; scale = min(0.7565 - (exp2(max(n_dot_v, t2 - 0.0745)*(t2 - 4.73) - 7.65*n_dot_v) - 0.1227)*((roughness - 0.735)*(-1.62*roughness - 2.342 - 7.3*min(n_dot_v, t1)) - 0.863), 0.99425)
+// t0 = n_dot_v + 0.05; t1 = 0.757*(roughness + 0.51*n_dot_v); bias = exp2((-6.3*n_dot_v - 5.7)*max(t0, t1) - t1 + 0.258); scale = min(0.7569 - (exp2(max(roughness - 1.6*n_dot_v, 0.12)*(roughness - 3.72) - t0*(12.38 - n_dot_v)) - 0.0611)*((roughness - 0.74)*(-3.16*roughness - 4.94 - 14.7*min(n_dot_v, t1)) - 1.831), 0.9942)
 fn dfg(n_dot_v: f32, roughness: f32) -> vec2<f32> {
-    let t0 = n_dot_v + 0.04;
-    let t1 = 0.764*(roughness + 0.515*n_dot_v);
-    let bias = exp2((-6.3*t0 - 6.3)*max(t0, t1) + 0.233);
-    let t2 = 0.66*roughness;
-    let t3 = (roughness - 0.735)*(-1.62*roughness - 2.342 - 7.3*min(n_dot_v, t1));
-    let t4 = exp2(max(n_dot_v, t2 - 0.0745)*(t2 - 4.73) - 7.65*n_dot_v) - 0.1227;
-    let scale = min(0.7565 - t4*(t3 - 0.863), 0.99425);
+    let t0 = n_dot_v + 0.05;
+    let t1 = 0.757*(roughness + 0.51*n_dot_v);
+    let bias = exp2((-6.3*n_dot_v - 5.7)*max(t0, t1) - t1 + 0.258);
+    let t2 = max(roughness - 1.6*n_dot_v, 0.12)*(roughness - 3.72);
+    let t3 = (roughness - 0.74)*(-3.16*roughness - 4.94 - 14.7*min(n_dot_v, t1));
+    let t4 = 0.7569 - (exp2(t2 - t0*(12.38 - n_dot_v)) - 0.0611)*(t3 - 1.831);
+    let scale = min(t4, 0.9942);
     return vec2<f32>(scale, bias);
 }
