@@ -15,9 +15,9 @@
 //! | [`program`] | instructions, verified programs, effective code, hashes, formula text |
 //! | [`simplify`] | algebra on programs |
 //! | [`dataset`] | tables of samples, their files, the incumbents |
-//! | [`grammar`], [`cost`] | what may be written; what it costs on a GPU |
-//! | [`eval`] | the data-parallel interpreter, losses, normal equations, scores |
-//! | [`fit`] | derivatives by constants, Levenberg–Marquardt |
+//! | [`grammar`], [`cost`] | what may be written, what it costs on a GPU; their `.ron` files |
+//! | [`eval`] | the data-parallel interpreter, losses, normal equations, scores; the same programs in f64, f16, intervals |
+//! | [`fit`] | derivatives by constants, Levenberg–Marquardt, constants with few digits |
 //! | [`archive`], [`search`] | the Pareto archive; islands, variation, fronts, runs on disk |
 //! | [`emit`] | formulas as HLSL, WGSL, GLSL, and back |
 //! | [`quadrature`], [`microfacet`], [`targets`] | integration, BRDF models, ground truths |
