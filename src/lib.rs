@@ -10,7 +10,7 @@
 //!
 //! | module | owns |
 //! |---|---|
-//! | [`num`] | registers of lanes, and mathematics with the same bits at every width |
+//! | [`num`] | registers of lanes, and mathematics with the same bits at every width; low-discrepancy points, sums |
 //! | [`op`] | the one table of operations, and what they mean |
 //! | [`program`] | instructions, verified programs, effective code, hashes, formula text |
 //! | [`simplify`] | algebra on programs |
