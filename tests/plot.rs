@@ -1,6 +1,8 @@
 //! Plots of fronts: the same bytes for the same front, whatever is in it.
 
-use lgp::report::plot::{FrontPlot, PlotError, Theme, png, svg};
+use lgp::report::plot::{
+    FrontPlot, Line, LinePlot, PlotError, Theme, lines_png, lines_svg, png, svg,
+};
 
 type Incumbent = (String, f64, f64);
 
@@ -138,4 +140,27 @@ fn widths_out_of_range_are_refused() {
         let refused = png(&plot(&FRONT, &[]), width);
         assert!(matches!(refused, Err(PlotError::Width { .. })), "{width}");
     }
+}
+
+#[test]
+fn lines_are_named_and_extremes_are_drawn() {
+    let falling = |scale: f64| (1..30).map(|i| (f64::from(i), scale / f64::from(i))).collect();
+    let line = |name: &str, points| Line { name: name.into(), points, bounds: vec![falling(0.7)] };
+    let mut lines = vec![line("8 cycles", falling(1.0)), line("16 cycles", falling(0.5))];
+    let ends = [0.0, -1.0, 1e-310, f64::MAX, f64::NAN, f64::INFINITY, f64::NEG_INFINITY];
+    lines.extend(ends.map(|end| line("far", vec![(end, 0.1), (1.0, end)])));
+    let plots = [&lines[..], &[]].map(|lines| LinePlot {
+        title: "dfg",
+        subtitle: "",
+        x_label: "seconds",
+        y_label: "RMSE",
+        lines,
+        theme: Theme::Dark,
+    });
+    for plot in &plots {
+        assert!(is_well_formed(&lines_svg(plot).unwrap()));
+        assert!(lines_png(plot, 400).unwrap().starts_with(b"\x89PNG"));
+    }
+    let document = lines_svg(&plots[0]).unwrap();
+    assert!(document.contains("8 cycles") && document.contains("16 cycles"));
 }

@@ -1,64 +1,22 @@
 //! The plot itself: heading, axes, front, incumbents.
 
 use super::axis::{Cycles, Errors};
-use super::canvas::{Anchor, Canvas, HEIGHT, Point, Surface, WIDTH};
+use super::canvas::{Anchor, Canvas, Point, Surface, WIDTH};
+use super::frame::{FLOOR, Frame, MARGIN, Palette, SUBTITLE, TICK};
 use super::labels::{Area, Label, Obstacle, place};
 use super::text::Face;
-use super::{FrontPlot, PlotError, Theme};
-use plotters::style::RGBColor;
+use super::{FrontPlot, PlotError};
 
-const MARGIN: f64 = 24.0;
-const TITLE: Face = Face::bold(18.0);
-const SUBTITLE: Face = Face::regular(12.5);
 const NAME: Face = Face::regular(12.0);
-const TICK: Face = Face::regular(11.5);
-
-/// Lower edge of the axes.
-const FLOOR: f64 = HEIGHT - 56.0;
 const DOT: f64 = 4.0;
 const DIAMOND: f64 = 6.0;
 const OUTLINE: f64 = 1.5;
-/// The least distance between ticks of errors.
-const TICKS_APART: f64 = 20.0;
 const LONGEST_NAME: f64 = 240.0;
-
-struct Palette {
-    paper: RGBColor,
-    ink: RGBColor,
-    faint: RGBColor,
-    grid: RGBColor,
-    /// Dominated by the front.
-    dominated: RGBColor,
-    front: RGBColor,
-    incumbent: RGBColor,
-}
-
-/// Front and incumbents are of the palette of Okabe and Ito.
-const LIGHT: Palette = Palette {
-    paper: RGBColor(255, 255, 255),
-    ink: RGBColor(31, 35, 40),
-    faint: RGBColor(89, 99, 110),
-    grid: RGBColor(226, 230, 235),
-    dominated: RGBColor(243, 248, 252),
-    front: RGBColor(0, 114, 178),
-    incumbent: RGBColor(213, 94, 0),
-};
-
-const DARK: Palette = Palette {
-    paper: RGBColor(13, 17, 23),
-    ink: RGBColor(230, 237, 243),
-    faint: RGBColor(145, 152, 161),
-    grid: RGBColor(38, 44, 53),
-    dominated: RGBColor(17, 25, 35),
-    front: RGBColor(86, 180, 233),
-    incumbent: RGBColor(230, 159, 0),
-};
 
 /// What is drawn, and where.
 struct Layout<'a> {
     plot: &'a FrontPlot<'a>,
-    palette: &'static Palette,
-    axes: Area,
+    frame: Frame<'a>,
     cycles: Cycles,
     errors: Errors,
     front: Vec<Point>,
@@ -67,10 +25,10 @@ struct Layout<'a> {
 
 pub(super) fn front<S: Surface>(plot: &FrontPlot, canvas: &mut Canvas<S>) -> Result<(), PlotError> {
     let layout = Layout::of(plot);
-    canvas.rectangle((0.0, 0.0), (WIDTH, HEIGHT), layout.palette.paper)?;
+    layout.frame.paper(canvas)?;
     layout.dominated(canvas)?;
-    layout.grid(canvas)?;
-    layout.heading(canvas)?;
+    layout.frame.grid(canvas, &layout.cycles.ticks(), &layout.errors)?;
+    layout.frame.heading(canvas)?;
     layout.key(canvas)?;
     layout.footer(canvas)?;
     layout.front(canvas)?;
@@ -88,13 +46,15 @@ impl<'a> Layout<'a> {
         let all = || front.iter().chain(incumbents.iter().map(|(_, point)| point));
         let cycles = Cycles::over(all().map(|point| point.0));
         let errors = Errors::over(all().map(|point| point.1));
-        let palette = match plot.theme {
-            Theme::Light => &LIGHT,
-            Theme::Dark => &DARK,
+        let frame = Frame {
+            title: plot.title,
+            subtitle: plot.subtitle,
+            x_label: plot.x_label,
+            y_label: plot.y_label,
+            palette: Palette::of(plot.theme),
+            axes: Frame::axes(plot.subtitle, &errors, 0.0),
         };
-        let axes = axes(plot, &errors);
-        let mut layout =
-            Layout { plot, palette, axes, cycles, errors, front: vec![], incumbents: vec![] };
+        let mut layout = Layout { plot, frame, cycles, errors, front: vec![], incumbents: vec![] };
         layout.front = front.into_iter().map(|point| layout.at(point)).collect();
         let placed = incumbents.into_iter().map(|(name, point)| (name, layout.at(point)));
         layout.incumbents = placed.collect();
@@ -102,15 +62,7 @@ impl<'a> Layout<'a> {
     }
 
     fn at(&self, (cycles, error): Point) -> Point {
-        (self.x(self.cycles.place(cycles)), self.y(self.errors.place(error)))
-    }
-
-    fn x(&self, place: f64) -> f64 {
-        self.axes.left + place * (self.axes.right - self.axes.left)
-    }
-
-    fn y(&self, place: f64) -> f64 {
-        self.axes.bottom - place * (self.axes.bottom - self.axes.top)
+        (self.frame.x(self.cycles.place(cycles)), self.frame.y(self.errors.place(error)))
     }
 
     /// The least error for each budget of cycles, from the first formula to the right edge.
@@ -118,7 +70,7 @@ impl<'a> Layout<'a> {
         let mut corners = Vec::new();
         for (i, &(x, y)) in self.front.iter().enumerate() {
             corners.push((x, y));
-            let next = self.front.get(i + 1).map_or(self.axes.right, |next| next.0);
+            let next = self.front.get(i + 1).map_or(self.frame.axes.right, |next| next.0);
             corners.push((next, y));
         }
         corners
@@ -126,40 +78,13 @@ impl<'a> Layout<'a> {
 
     fn dominated<S: Surface>(&self, canvas: &mut Canvas<S>) -> Result<(), PlotError> {
         for step in self.steps().chunks_exact(2) {
-            canvas.rectangle((step[0].0, self.axes.top), step[1], self.palette.dominated)?;
+            canvas.rectangle(
+                (step[0].0, self.frame.axes.top),
+                step[1],
+                self.frame.palette.dominated,
+            )?;
         }
         Ok(())
-    }
-
-    fn grid<S: Surface>(&self, canvas: &mut Canvas<S>) -> Result<(), PlotError> {
-        let Palette { grid, faint, .. } = *self.palette;
-        let Area { left, top, right, bottom } = self.axes;
-        for tick in self.cycles.ticks() {
-            let x = self.x(tick.place);
-            canvas.rectangle((x - 0.5, top), (x + 0.5, bottom), grid)?;
-            canvas.write(&tick.text, TICK, faint, Anchor::Middle, (x, bottom + 18.0))?;
-        }
-        for tick in self.errors.ticks(TICKS_APART / (bottom - top)) {
-            let y = self.y(tick.place);
-            canvas.rectangle((left, y - 0.5), (right, y + 0.5), grid)?;
-            canvas.write(&tick.text, TICK, faint, Anchor::Right, (left - 8.0, y + 4.0))?;
-        }
-        canvas.rectangle((left, bottom - 0.5), (right, bottom + 0.5), faint)
-    }
-
-    fn heading<S: Surface>(&self, canvas: &mut Canvas<S>) -> Result<(), PlotError> {
-        let Palette { ink, faint, .. } = *self.palette;
-        let FrontPlot { title, subtitle, x_label, y_label, .. } = *self.plot;
-        let width = WIDTH - 2.0 * MARGIN;
-        let mut left = |text: &str, face: Face, colour, y| {
-            canvas.write(&face.fitted(text, width), face, colour, Anchor::Left, (MARGIN, y))
-        };
-        left(title, TITLE, ink, 38.0)?;
-        left(subtitle, SUBTITLE, faint, 59.0)?;
-        left(&TICK.fitted(y_label, width / 2.0), TICK, faint, self.axes.top - 14.0)?;
-        let x_label = TICK.fitted(x_label, width / 2.0);
-        let below = (self.axes.right, FLOOR + 39.0);
-        canvas.write(&x_label, TICK, faint, Anchor::Right, below)
     }
 
     /// What the two kinds of marker are. A front alone needs no key.
@@ -167,10 +92,10 @@ impl<'a> Layout<'a> {
         if self.front.is_empty() || self.incumbents.is_empty() {
             return Ok(());
         }
-        let Palette { faint, front, incumbent, .. } = *self.palette;
-        let baseline = self.axes.top - 14.0;
+        let Palette { faint, front, incumbent, .. } = *self.frame.palette;
+        let baseline = self.frame.axes.top - 14.0;
         let (published, found) = ("published formulas", "Pareto front");
-        let mut x = self.axes.right - TICK.width(published);
+        let mut x = self.frame.axes.right - TICK.width(published);
         canvas.write(published, TICK, faint, Anchor::Left, (x, baseline))?;
         x -= 12.0;
         canvas.diamond((x, baseline - 4.0), 5.5, incumbent)?;
@@ -191,19 +116,25 @@ impl<'a> Layout<'a> {
         }
         let text = format!("not finite: {}", names.join(", "));
         let text = TICK.fitted(&text, WIDTH / 2.0);
-        canvas.write(&text, TICK, self.palette.faint, Anchor::Left, (MARGIN, FLOOR + 39.0))
+        canvas.write(&text, TICK, self.frame.palette.faint, Anchor::Left, (MARGIN, FLOOR + 39.0))
     }
 
     fn front<S: Surface>(&self, canvas: &mut Canvas<S>) -> Result<(), PlotError> {
         if self.front.is_empty() {
-            let middle = (self.x(0.5), self.y(0.5));
+            let middle = (self.frame.x(0.5), self.frame.y(0.5));
             let nothing = if self.incumbents.is_empty() { "no formulas" } else { "" };
-            return canvas.write(nothing, SUBTITLE, self.palette.faint, Anchor::Middle, middle);
+            return canvas.write(
+                nothing,
+                SUBTITLE,
+                self.frame.palette.faint,
+                Anchor::Middle,
+                middle,
+            );
         }
-        canvas.line(&self.steps(), 2.0, self.palette.front)?;
+        canvas.line(&self.steps(), 2.0, self.frame.palette.front)?;
         for dot in &self.front {
-            canvas.disc(*dot, DOT + OUTLINE, self.palette.paper)?;
-            canvas.disc(*dot, DOT, self.palette.front)?;
+            canvas.disc(*dot, DOT + OUTLINE, self.frame.palette.paper)?;
+            canvas.disc(*dot, DOT, self.frame.palette.front)?;
         }
         Ok(())
     }
@@ -215,17 +146,17 @@ impl<'a> Layout<'a> {
             height: NAME.size + 3.0,
         };
         let labels: Vec<Label> = self.incumbents.iter().map(label).collect();
-        let areas = place(&labels, &self.obstacles(), &self.axes);
+        let areas = place(&labels, &self.obstacles(), &self.frame.axes);
         for ((_, marker), area) in self.incumbents.iter().zip(&areas) {
             self.leader(canvas, *marker, area)?;
         }
         for (_, marker) in &self.incumbents {
-            canvas.diamond(*marker, DIAMOND + OUTLINE, self.palette.paper)?;
-            canvas.diamond(*marker, DIAMOND, self.palette.incumbent)?;
+            canvas.diamond(*marker, DIAMOND + OUTLINE, self.frame.palette.paper)?;
+            canvas.diamond(*marker, DIAMOND, self.frame.palette.incumbent)?;
         }
         for ((name, _), area) in self.incumbents.iter().zip(&areas) {
             let baseline = (area.left + 2.0, area.bottom - 4.0);
-            canvas.write(name, NAME, self.palette.ink, Anchor::Left, baseline)?;
+            canvas.write(name, NAME, self.frame.palette.ink, Anchor::Left, baseline)?;
         }
         Ok(())
     }
@@ -240,7 +171,7 @@ impl<'a> Layout<'a> {
         if area.distance(marker) < 15.0 {
             return Ok(());
         }
-        canvas.line(&[marker, area.nearest(marker)], 1.0, self.palette.incumbent)
+        canvas.line(&[marker, area.nearest(marker)], 1.0, self.frame.palette.incumbent)
     }
 
     fn obstacles(&self) -> Vec<Obstacle> {
@@ -254,13 +185,4 @@ impl<'a> Layout<'a> {
             self.incumbents.iter().map(|i| Obstacle { area: diamond(&i.1), weight: 10.0 });
         lines.chain(dots).chain(diamonds).collect()
     }
-}
-
-/// As wide as the ticks of errors leave, as high as the heading does.
-fn axes(plot: &FrontPlot, errors: &Errors) -> Area {
-    let top = if plot.subtitle.is_empty() { 82.0 } else { 104.0 };
-    let ticks = errors.ticks(TICKS_APART / (FLOOR - top));
-    let widest = ticks.iter().map(|tick| TICK.width(&tick.text)).fold(0.0, f64::max);
-    let right = WIDTH - MARGIN - 4.0;
-    Area { left: (MARGIN + widest + 8.0).round(), top, right, bottom: FLOOR }
 }

@@ -1,12 +1,15 @@
-//! A Pareto front, error against GPU cycles, with published formulas on the same axes.
+//! A Pareto front, error against GPU cycles, with published formulas on the same axes; and lines,
+//! error against time.
 
 mod axis;
 mod canvas;
 mod draw;
+mod frame;
 mod labels;
+mod lines;
 mod text;
 
-use canvas::{Bitmap, Canvas, HEIGHT, Vector, WIDTH};
+use canvas::{Bitmap, Canvas, HEIGHT, Surface, Vector, WIDTH};
 
 /// The narrowest and the widest plot, in pixels.
 const WIDTHS: (u32, u32) = (320, 4096);
@@ -36,6 +39,44 @@ pub struct FrontPlot<'a> {
     pub theme: Theme,
 }
 
+/// Lines on two logarithmic axes. Points that are not finite, or whose abscissa is not positive,
+/// are not drawn.
+#[derive(Clone, Copy, Debug)]
+pub struct LinePlot<'a> {
+    pub title: &'a str,
+    pub subtitle: &'a str,
+    pub x_label: &'a str,
+    pub y_label: &'a str,
+    pub lines: &'a [Line],
+    pub theme: Theme,
+}
+
+/// A line, points by rising abscissa, and thin ones of the same colour, such as the best and the
+/// worst of what it is the median of.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Line {
+    pub name: String,
+    pub points: Vec<(f64, f64)>,
+    pub bounds: Vec<Vec<(f64, f64)>>,
+}
+
+/// What can be drawn on every surface.
+trait Picture {
+    fn draw<S: Surface>(&self, canvas: &mut Canvas<S>) -> Result<(), PlotError>;
+}
+
+impl Picture for FrontPlot<'_> {
+    fn draw<S: Surface>(&self, canvas: &mut Canvas<S>) -> Result<(), PlotError> {
+        draw::front(self, canvas)
+    }
+}
+
+impl Picture for LinePlot<'_> {
+    fn draw<S: Surface>(&self, canvas: &mut Canvas<S>) -> Result<(), PlotError> {
+        lines::lines(self, canvas)
+    }
+}
+
 /// Why a plot cannot be drawn.
 #[derive(Debug, thiserror::Error)]
 pub enum PlotError {
@@ -49,9 +90,28 @@ pub enum PlotError {
 
 /// The plot as an SVG document, 800 by 480 pixels where it is not scaled.
 pub fn svg(plot: &FrontPlot) -> Result<String, PlotError> {
+    document(plot)
+}
+
+/// The plot as the bytes of a PNG file, `width` pixels wide and 0.6 times as high.
+pub fn png(plot: &FrontPlot, width: u32) -> Result<Vec<u8>, PlotError> {
+    bitmap(plot, width)
+}
+
+/// [`svg`] of lines.
+pub fn lines_svg(plot: &LinePlot) -> Result<String, PlotError> {
+    document(plot)
+}
+
+/// [`png`](fn@png) of lines.
+pub fn lines_png(plot: &LinePlot, width: u32) -> Result<Vec<u8>, PlotError> {
+    bitmap(plot, width)
+}
+
+fn document(picture: &impl Picture) -> Result<String, PlotError> {
     let mut document = String::new();
     let mut canvas = Canvas::<Vector>::vector(&mut document, SVG_SCALE);
-    draw::front(plot, &mut canvas)?;
+    picture.draw(&mut canvas)?;
     canvas.finish()?;
     let size = |scale: u32| {
         format!("width=\"{}\" height=\"{}\"", WIDTH as u32 * scale, HEIGHT as u32 * scale)
@@ -59,8 +119,7 @@ pub fn svg(plot: &FrontPlot) -> Result<String, PlotError> {
     Ok(document.replacen(&size(SVG_SCALE), &size(1), 1))
 }
 
-/// The plot as the bytes of a PNG file, `width` pixels wide and 0.6 times as high.
-pub fn png(plot: &FrontPlot, width: u32) -> Result<Vec<u8>, PlotError> {
+fn bitmap(picture: &impl Picture, width: u32) -> Result<Vec<u8>, PlotError> {
     let (least, most) = WIDTHS;
     if !(least..=most).contains(&width) {
         return Err(PlotError::Width { width, least, most });
@@ -69,7 +128,7 @@ pub fn png(plot: &FrontPlot, width: u32) -> Result<Vec<u8>, PlotError> {
     let finer = oversampling(width);
     let mut fine = vec![0; (width * finer * height * finer * 3) as usize];
     let mut canvas = Canvas::<Bitmap>::bitmap(&mut fine, (width * finer, height * finer));
-    draw::front(plot, &mut canvas)?;
+    picture.draw(&mut canvas)?;
     canvas.finish()?;
     encode(&averaged(&fine, width, height, finer), width, height)
 }
