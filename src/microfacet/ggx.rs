@@ -6,61 +6,75 @@
 //! "Understanding the Masking-Shadowing Function in Microfacet-Based BRDFs",
 //! 2014 (Λ: eq. 72, separable G2: eq. 98, height-correlated G2: eq. 99).
 
-use std::f64::consts::PI;
+use super::{Real, sine_squared};
 
 /// Density of microfacet normals per unit solid angle, in 1/sr, such that
 /// `∫ D (n·h) dω = 1`. `n_dot_h` in [0, 1], `alpha` in (0, 1].
-pub fn distribution(n_dot_h: f64, alpha: f64) -> f64 {
-    let alpha_squared = alpha * alpha;
-    // The usual n·h²(α² - 1) + 1 cancels near n·h = 1, where the lobe is.
-    let t = alpha_squared * n_dot_h * n_dot_h + (1.0 - n_dot_h) * (1.0 + n_dot_h);
-    alpha_squared / (PI * t * t)
+pub fn distribution<T: Real>(n_dot_h: T, alpha: T) -> T {
+    // α² / (π t²) with t = n·h²(α² - 1) + 1, which cancels near n·h = 1, where
+    // the lobe is; and α² may underflow where t / α does not.
+    let t_over_alpha = alpha * n_dot_h * n_dot_h + sine_squared(n_dot_h) / alpha;
+    T::ONE / (T::PI * t_over_alpha * t_over_alpha)
 }
 
 /// Smith's Λ, invisible over visible projected area of the microsurface seen
 /// from a direction at `cosine` from the normal, in (0, 1]: +∞ at 0.
 /// `alpha` in [0, 1].
-pub fn lambda(cosine: f64, alpha: f64) -> f64 {
+pub fn lambda<T: Real>(cosine: T, alpha: T) -> T {
     // (sqrt(1 + α² tan²) - 1) / 2, rationalised: that difference cancels for
     // small α tan.
-    let sine_squared = (1.0 - cosine) * (1.0 + cosine);
     let root = projected(cosine, alpha);
-    alpha * alpha * sine_squared / (2.0 * cosine * (root + cosine))
+    alpha * alpha * sine_squared(cosine) / (T::TWO * cosine * (root + cosine))
 }
 
 /// Masking: the visible fraction of the microfacets that face a direction at
 /// `cosine` in [0, 1] from the normal, `1 / (1 + Λ)`; 0 at the horizon.
 /// `alpha` in (0, 1].
-pub fn g1(cosine: f64, alpha: f64) -> f64 {
-    2.0 * cosine / (cosine + projected(cosine, alpha))
+pub fn g1<T: Real>(cosine: T, alpha: T) -> T {
+    T::TWO * cosine / (cosine + projected(cosine, alpha))
 }
 
 /// Masking and shadowing as if independent: `G1(v) G1(l)`.
-pub fn g2_separable(n_dot_v: f64, n_dot_l: f64, alpha: f64) -> f64 {
+pub fn g2_separable<T: Real>(n_dot_v: T, n_dot_l: T, alpha: T) -> T {
     g1(n_dot_v, alpha) * g1(n_dot_l, alpha)
 }
 
 /// Masking and shadowing correlated through the height of the microfacet:
 /// `1 / (1 + Λ(v) + Λ(l))`; 0 if either cosine is 0. `alpha` in [0, 1].
-pub fn g2_correlated(n_dot_v: f64, n_dot_l: f64, alpha: f64) -> f64 {
+pub fn g2_correlated<T: Real>(n_dot_v: T, n_dot_l: T, alpha: T) -> T {
     let product = n_dot_v * n_dot_l;
-    if product <= 0.0 {
-        return 0.0;
+    if product <= T::ZERO {
+        return T::ZERO;
     }
-    let sum = n_dot_l * projected(n_dot_v, alpha) + n_dot_v * projected(n_dot_l, alpha);
-    2.0 * product / sum
+    T::TWO * product / sum_of_projected(n_dot_v, n_dot_l, alpha)
+}
+
+/// `G2 / (4 n·v n·l)` with the correlated G2, finite at the horizon: the lobe is
+/// `D V F`. +∞ where both cosines are 0.
+pub fn visibility_correlated<T: Real>(n_dot_v: T, n_dot_l: T, alpha: T) -> T {
+    T::HALF / sum_of_projected(n_dot_v, n_dot_l, alpha)
+}
+
+/// `G2 / (4 n·v n·l)` with the separable G2.
+pub fn visibility_separable<T: Real>(n_dot_v: T, n_dot_l: T, alpha: T) -> T {
+    let denominator = |cosine| cosine + projected(cosine, alpha);
+    T::ONE / (denominator(n_dot_v) * denominator(n_dot_l))
+}
+
+fn sum_of_projected<T: Real>(n_dot_v: T, n_dot_l: T, alpha: T) -> T {
+    n_dot_l * projected(n_dot_v, alpha) + n_dot_v * projected(n_dot_l, alpha)
 }
 
 /// `cosine * sqrt(1 + α² tan²)`, finite at the horizon.
-fn projected(cosine: f64, alpha: f64) -> f64 {
-    let sine_squared = (1.0 - cosine) * (1.0 + cosine);
-    (cosine * cosine + alpha * alpha * sine_squared).sqrt()
+fn projected<T: Real>(cosine: T, alpha: T) -> T {
+    (cosine * cosine + alpha * alpha * sine_squared(cosine)).sqrt()
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
     use crate::quadrature::TanhSinh;
+    use std::f64::consts::PI;
 
     const ALPHAS: [f64; 6] = [1e-6, 1e-3, 0.03, 0.25, 0.7, 1.0];
     const COSINES: [f64; 6] = [1e-5, 0.01, 0.3, 0.71, 0.999, 1.0];
@@ -101,6 +115,11 @@ mod tests {
                     assert!((g2_correlated(v, l, alpha) * sum - 1.0).abs() < 1e-14);
                     assert_eq!(g2_correlated(v, l, alpha), g2_correlated(l, v, alpha));
                     assert!(g2_separable(v, l, alpha) <= g2_correlated(v, l, alpha) + 1e-15);
+                    let area = 4.0 * v * l;
+                    let correlated = visibility_correlated(v, l, alpha) * area;
+                    assert!((correlated / g2_correlated(v, l, alpha) - 1.0).abs() < 1e-14);
+                    let separable = visibility_separable(v, l, alpha) * area;
+                    assert!((separable / g2_separable(v, l, alpha) - 1.0).abs() < 1e-14);
                 }
             }
         }
