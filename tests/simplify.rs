@@ -99,6 +99,9 @@ fn rules_rewrite_as_they_say() {
         ("f = x + 2*3", "f = x + 6"),
         ("f = 1*x - 0.5", "f = x + -0.5"),
         ("f = y + -1*x", "f = y - x"),
+        ("f = min(max(x, 0), 1)", "f = saturate(x)"),
+        ("f = max(1, min(0, x))", "f = max(min(x, 0), 1)"),
+        ("f = max(0, min(1, x + y))", "f = saturate(x + y)"),
     ] {
         let simple = simplified(&parse(text, &names).unwrap());
         assert_eq!(print(&simple, &names), expected, "{text}");

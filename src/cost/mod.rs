@@ -1,126 +1,165 @@
-//! What a program costs on a GPU: cycles of its effective code.
+//! What a program costs on a GPU: cycles of its effective code, registers, the critical path.
 //!
-//! Shared results are paid once, a product that only sums read is fused with them, and modifiers
-//! of arguments and results are free, as compilers have it.
+//! Shared results are paid once. What compilers merge is not paid at all: a product that only
+//! sums read, signs of arguments, saturation of a result, the square root below a
+//! fraction line, minima of three where the chip has them. Nothing else is assumed of them: a
+//! program is costed as it stands, and [`crate::simplify`] is for what algebra can do.
+//!
+//! A chip has pipes that work beside each other; an instruction takes slots on one or more, and
+//! the busiest decides. So cycles are for many threads or long code, which hide latency;
+//! the critical path is what one thread alone would wait.
 
+mod chip;
+mod form;
 mod profile;
+mod schedule;
 
 pub use profile::Profile;
 
 use crate::op::Op;
-use crate::program::{Arg, Draft, use_counts};
+use crate::program::{Arg, Draft};
+use chip::{Chip, Slots, busiest};
+use form::{Form, find_forms};
+use serde::Serialize;
+use std::collections::BTreeMap;
 
 /// Scratch memory of [`Profile::cycles`].
 #[derive(Clone, Debug, Default)]
 pub struct CostScratch {
+    /// How often each result is read.
     uses: Vec<u32>,
-    fused: Vec<bool>,
+    /// How many sums absorb each product.
     absorbed: Vec<u32>,
-    reciprocals: Vec<Arg>,
+    /// How often each result is divided by.
+    divides: Vec<u32>,
+    /// Values whose inverse is known.
+    inverses: Vec<Arg>,
+    forms: Vec<Form>,
+}
+
+impl CostScratch {
+    /// Whether each reader of the result absorbs it.
+    fn is_absorbed(&self, i: usize) -> bool {
+        self.absorbed[i] == self.uses[i]
+    }
+}
+
+/// What a program costs on one GPU.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Cost {
+    pub gpu: String,
+    /// Slots of the busiest pipe.
+    pub cycles: f64,
+    /// The most results alive at once; inputs and constants are not counted.
+    pub registers: u32,
+    /// Cycles from the inputs to the last output, if nothing else runs.
+    pub critical_path: f64,
+    /// By operation, as written; and `constant`, on a chip where constants take instructions.
+    pub ops: BTreeMap<&'static str, OpCost>,
+}
+
+/// An operation's share of the cost.
+#[derive(Clone, Debug, Default, PartialEq, Serialize)]
+pub struct OpCost {
+    pub count: u32,
+    /// Of these, those that are no instruction of their own.
+    pub merged: u32,
+    /// By pipe, those that are not zero.
+    pub slots: BTreeMap<String, f64>,
 }
 
 impl Profile {
-    /// The cycles of a draft's effective code.
+    /// The cycles of a draft's effective code; for a mix the weighted mean.
     pub fn cycles(&self, draft: &Draft, scratch: &mut CostScratch) -> f64 {
-        use_counts(draft, &mut scratch.uses);
-        scratch.reciprocals.clear();
-        fuse_products(draft, scratch);
-        let mut cycles = 0.0;
-        for i in 0..draft.instrs.len() {
-            if scratch.uses[i] > 0 {
-                cycles += self.instruction(draft, i, scratch);
-            }
-        }
-        cycles
+        let weighted = |(share, chip): &(f64, Chip)| {
+            find_forms(draft, &chip.merges, scratch);
+            share * busiest(&slots(draft, chip, scratch))
+        };
+        self.chips.iter().map(weighted).sum()
     }
 
-    fn instruction(&self, draft: &Draft, i: usize, scratch: &mut CostScratch) -> f64 {
-        let instr = &draft.instrs[i];
-        let args = instr.args();
-        match instr.op() {
-            Op::Neg | Op::Abs if !is_output(draft, i) => 0.0,
-            Op::Neg if is_arithmetic_read_once(draft, args[0], &scratch.uses) => 0.0,
-            Op::Saturate if modifies_a_result(draft, args[0], &scratch.uses) => 0.0,
-            Op::Mul if scratch.fused[i] => 0.0,
-            Op::Rcp => self.reciprocal(args[0], scratch),
-            Op::Div => {
-                let product = if scratch.fused[i] { 0.0 } else { self.of(Op::Mul) };
-                match (args[0], args[1]) {
-                    (_, Arg::Const(_)) => product,
-                    (numerator, y) if is_one(draft, numerator) => self.reciprocal(y, scratch),
-                    (_, y) => product + self.reciprocal(y, scratch),
-                }
-            }
-            op => self.of(op),
+    /// The cost of a draft's effective code; for a mix the weighted means, but the most registers,
+    /// and the operations on its first GPU.
+    pub fn cost(&self, draft: &Draft) -> Cost {
+        let mut costs = self.chips.iter().map(|(share, chip)| (*share, chip_cost(draft, chip)));
+        let (share, mut whole) = costs.next().expect("a profile has a chip");
+        whole.cycles *= share;
+        whole.critical_path *= share;
+        for (share, cost) in costs {
+            whole.cycles += share * cost.cycles;
+            whole.critical_path += share * cost.critical_path;
+            whole.registers = whole.registers.max(cost.registers);
         }
+        whole.gpu.clone_from(&self.name);
+        whole
     }
 
-    /// The reciprocal of a value, which any number of quotients share.
-    fn reciprocal(&self, of: Arg, scratch: &mut CostScratch) -> f64 {
-        if scratch.reciprocals.contains(&of) {
-            return 0.0;
-        }
-        scratch.reciprocals.push(of);
-        self.of(Op::Rcp)
+    /// The cycles of an operation by itself, with nothing merged.
+    pub fn of(&self, op: Op) -> f64 {
+        self.chips.iter().map(|(share, chip)| share * busiest(&chip.of_op(op).slots)).sum()
     }
 }
 
-/// Marks each product (a quotient is one, with a reciprocal) that sums absorb: each of its
-/// readers is a sum, and absorbs it. A sum absorbs one product, perhaps negated.
-fn fuse_products(draft: &Draft, scratch: &mut CostScratch) {
-    let CostScratch { uses, fused, absorbed, .. } = scratch;
-    absorbed.clear();
-    absorbed.resize(draft.instrs.len(), 0);
-    for (i, instr) in draft.instrs.iter().enumerate() {
-        if uses[i] == 0 || !matches!(instr.op(), Op::Add | Op::Sub) {
-            continue;
-        }
-        let products = instr.args().iter().filter_map(|&arg| product(draft, arg, uses));
-        if let Some(product) = products.min_by_key(|&product| uses[product]) {
-            absorbed[product] += 1;
-        }
+/// The slots of all instructions.
+fn slots(draft: &Draft, chip: &Chip, scratch: &CostScratch) -> Slots {
+    let mut total = Slots::default();
+    for &form in &scratch.forms {
+        add(&mut total, &chip.of_form(form).slots, 1.0);
     }
-    fused.clear();
-    fused.extend((0..draft.instrs.len()).map(|i| uses[i] > 0 && absorbed[i] == uses[i]));
+    if let Some(literal) = &chip.literal {
+        add(&mut total, literal, f64::from(literals(draft, scratch)));
+    }
+    total
 }
 
-/// The product that `arg` is, perhaps negated.
-fn product(draft: &Draft, arg: Arg, uses: &[u32]) -> Option<usize> {
-    let Arg::Result(i) = arg else { return None };
-    let i = usize::from(i);
-    let instr = &draft.instrs[i];
-    match instr.op() {
-        Op::Mul => Some(i),
-        Op::Div if !is_one(draft, instr.args()[0]) => Some(i),
-        Op::Neg if uses[i] == 1 => product(draft, instr.args()[0], uses),
-        _ => None,
+fn add(total: &mut Slots, slots: &Slots, times: f64) {
+    for (total, slots) in total.iter_mut().zip(slots) {
+        *total += slots * times;
     }
 }
 
-fn is_one(draft: &Draft, arg: Arg) -> bool {
-    matches!(arg, Arg::Const(c) if draft.consts[usize::from(c)] == 1.0)
-}
-
-fn is_output(draft: &Draft, i: usize) -> bool {
-    draft.outputs.contains(&Arg::Result(i as u16))
-}
-
-/// Whether the sign of `arg` can move into the arguments of its instruction.
-fn is_arithmetic_read_once(draft: &Draft, arg: Arg, uses: &[u32]) -> bool {
-    let Arg::Result(i) = arg else { return false };
-    let arithmetic = [Op::Add, Op::Sub, Op::Mul, Op::Div, Op::Mad];
-    uses[usize::from(i)] == 1 && arithmetic.contains(&draft.instrs[usize::from(i)].op())
-}
-
-/// Whether `arg` is the result of an instruction that nothing else reads, so that a clamp of it is
-/// part of the instruction.
-fn modifies_a_result(draft: &Draft, arg: Arg, uses: &[u32]) -> bool {
-    let Arg::Result(i) = arg else { return false };
-    let instr = &draft.instrs[usize::from(i)];
-    uses[usize::from(i)] == 1
-        && match instr.op() {
-            Op::Neg => is_arithmetic_read_once(draft, instr.args()[0], uses),
-            Op::Abs => false,
-            _ => true,
+/// The constants that need an instruction of their own on a chip that has room for them in sums
+/// only.
+fn literals(draft: &Draft, scratch: &CostScratch) -> u32 {
+    let mut count = 0;
+    for (instr, _) in draft.instrs.iter().zip(&scratch.uses).filter(|(_, uses)| **uses > 0) {
+        if !matches!(instr.op(), Op::Add | Op::Sub) {
+            count += instr.args().iter().filter(|arg| matches!(arg, Arg::Const(_))).count() as u32;
         }
+    }
+    count
+}
+
+fn chip_cost(draft: &Draft, chip: &Chip) -> Cost {
+    let mut scratch = CostScratch::default();
+    find_forms(draft, &chip.merges, &mut scratch);
+    let mut ops: BTreeMap<&'static str, OpCost> = BTreeMap::new();
+    for (i, instr) in draft.instrs.iter().enumerate().filter(|(i, _)| scratch.uses[*i] > 0) {
+        let form = scratch.forms[i];
+        let entry = ops.entry(instr.op().name()).or_default();
+        entry.count += 1;
+        entry.merged += u32::from(form == Form::Merged);
+        entry.take(chip, &chip.of_form(form).slots, 1.0);
+    }
+    let literals = literals(draft, &scratch);
+    if let Some(literal) = chip.literal.as_ref().filter(|_| literals > 0) {
+        let entry = ops.entry("constant").or_default();
+        entry.count = literals;
+        entry.take(chip, literal, f64::from(literals));
+    }
+    Cost {
+        gpu: chip.name.clone(),
+        cycles: busiest(&slots(draft, chip, &scratch)),
+        registers: schedule::registers(draft, &scratch),
+        critical_path: schedule::critical_path(draft, chip, &scratch),
+        ops,
+    }
+}
+
+impl OpCost {
+    fn take(&mut self, chip: &Chip, slots: &Slots, times: f64) {
+        for (pipe, slots) in chip.pipes.iter().zip(slots).filter(|(_, slots)| **slots > 0.0) {
+            *self.slots.entry(pipe.clone()).or_default() += slots * times;
+        }
+    }
 }

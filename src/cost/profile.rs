@@ -1,35 +1,25 @@
-//! GPU profiles: cycles by operation, from `.ron` files.
+//! GPU profiles: one chip, or a weighted mix of several.
 
+use super::chip::{Chip, KIND};
 use crate::grammar::{FileError, file};
-use crate::op::Op;
-use serde::Deserialize;
-use std::collections::BTreeMap;
 
-const KIND: &str = "GPU profile";
+/// The chips that come with the program, by name.
+const BUILT_IN: [(&str, &str); 6] = [
+    ("gcn", include_str!("../../grammar/gpu/gcn.ron")),
+    ("rdna2", include_str!("../../grammar/gpu/rdna2.ron")),
+    ("rdna3", include_str!("../../grammar/gpu/rdna3.ron")),
+    ("turing", include_str!("../../grammar/gpu/turing.ron")),
+    ("ampere", include_str!("../../grammar/gpu/ampere.ron")),
+    ("valhall", include_str!("../../grammar/gpu/valhall.ron")),
+];
 
-/// The profiles that come with the program, by name.
-const BUILT_IN: [(&str, &str); 1] = [("gcn", include_str!("../../grammar/gpu/gcn.ron"))];
-
-/// What a GPU's operations cost.
+/// What formulas cost on a GPU, or on a weighted mix of GPUs.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Profile {
     pub name: String,
     pub description: String,
-    cycles: Vec<f64>,
-}
-
-#[derive(Deserialize)]
-#[serde(deny_unknown_fields)]
-struct File {
-    name: String,
-    #[serde(default)]
-    description: String,
-    /// Cycles of an instruction at full rate.
-    full: f64,
-    /// Cycles of a transcendental instruction.
-    transcendental: f64,
-    /// Instructions that each operation becomes: at full rate, transcendental.
-    operations: BTreeMap<String, (u32, u32)>,
+    /// With their shares of the whole, which sum to 1.
+    pub(super) chips: Vec<(f64, Chip)>,
 }
 
 impl Profile {
@@ -38,36 +28,60 @@ impl Profile {
         BUILT_IN.iter().map(|(name, _)| *name)
     }
 
-    /// A built-in profile by name, or one from a `.ron` file.
-    pub fn find(name_or_path: &str) -> Result<Profile, FileError> {
-        Profile::parse(name_or_path, &file::find(KIND, name_or_path, &BUILT_IN)?)
+    /// A built-in profile by name, or one from a `.ron` file; or a mix, as in `gcn:2,turing:1`:
+    /// the weighted mean of their cycles.
+    pub fn find(name_or_mix: &str) -> Result<Profile, FileError> {
+        if let [single] = parts(name_or_mix)?.as_slice()
+            && single.0 == name_or_mix
+        {
+            return Ok(Profile::single(chip(single.0)?));
+        }
+        let parts = parts(name_or_mix)?;
+        let total: f64 = parts.iter().map(|(_, weight)| weight).sum();
+        let chips = parts
+            .iter()
+            .map(|&(name, weight)| Ok((weight / total, chip(name)?)))
+            .collect::<Result<Vec<_>, FileError>>()?;
+        let described =
+            |(share, chip): &(f64, Chip)| format!("{:.0} % {}", share * 100.0, chip.name);
+        let description = chips.iter().map(described).collect::<Vec<_>>().join(", ");
+        Ok(Profile { name: name_or_mix.to_owned(), description, chips })
     }
 
     /// A profile from the text of a `.ron` file at `path`.
     pub fn parse(path: &str, text: &str) -> Result<Profile, FileError> {
-        let file: File = file::parse(KIND, path, text)?;
-        let refuse =
-            |reason: String| FileError::Content { kind: KIND, path: path.to_owned(), reason };
-        for (what, rate) in [("full", file.full), ("transcendental", file.transcendental)] {
-            if !(rate.is_finite() && rate > 0.0) {
-                return Err(refuse(format!("`{what}` must be a positive number of cycles")));
-            }
-        }
-        for name in file.operations.keys() {
-            file::operation(name).map_err(refuse)?;
-        }
-        let cycles = Op::ALL.iter().map(|op| match file.operations.get(op.name()) {
-            Some(&(full, transcendental)) => {
-                Ok(f64::from(full) * file.full + f64::from(transcendental) * file.transcendental)
-            }
-            None => Err(refuse(format!("operation \"{op}\" is missing"))),
-        });
-        let cycles = cycles.collect::<Result<_, _>>()?;
-        Ok(Profile { name: file.name, description: file.description, cycles })
+        Ok(Profile::single(Chip::parse(path, text)?))
     }
 
-    /// The cycles of an operation by itself, with nothing fused or free.
-    pub fn of(&self, op: Op) -> f64 {
-        self.cycles[op as usize]
+    fn single(chip: Chip) -> Profile {
+        Profile {
+            name: chip.name.clone(),
+            description: chip.description.clone(),
+            chips: vec![(1.0, chip)],
+        }
     }
+}
+
+fn chip(name_or_path: &str) -> Result<Chip, FileError> {
+    Chip::parse(name_or_path, &file::find(KIND, name_or_path, &BUILT_IN)?)
+}
+
+/// The names of a mix and their weights.
+fn parts(mix: &str) -> Result<Vec<(&str, f64)>, FileError> {
+    let weighted = |part| match str::rsplit_once(part, ':') {
+        None => Ok((part, 1.0)),
+        // The colon of a path may follow a drive's letter.
+        Some((_, rest)) if rest.contains(['/', '\\']) => Ok((part, 1.0)),
+        Some((name, weight)) => match weight.parse::<f64>() {
+            Ok(weight) if weight.is_finite() && weight > 0.0 => Ok((name, weight)),
+            _ => Err(FileError::Content {
+                kind: KIND,
+                path: mix.to_owned(),
+                reason: format!(
+                    "`{weight}` is no positive weight; a mix is written gcn:2,turing:1"
+                ),
+            }),
+        },
+    };
+    mix.split(',').map(|part| weighted(part.trim())).collect()
 }

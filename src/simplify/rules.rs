@@ -270,6 +270,9 @@ impl Simplifier {
             return Some(x);
         }
         for (a, b) in [(x, y), (y, x)] {
+            if let Some(clamped) = self.unit_clamp(op, a, b) {
+                return Some(clamped);
+            }
             // min(min(x, c₁), c₂), min(min(x, y), y)
             if let Some((left, right)) = self.operands(a, op) {
                 if left == b || right == b {
@@ -284,5 +287,15 @@ impl Simplifier {
             }
         }
         None
+    }
+    /// `min(max(x, 0), 1)` and `max(min(x, 1), 0)` are a saturation, which is free on a result.
+    fn unit_clamp(&mut self, op: Op, inner: Arg, bound: Arg) -> Option<Arg> {
+        let (opposite, bounds) = match op {
+            Op::Min => (Op::Max, [0.0, 1.0]),
+            _ => (Op::Min, [1.0, 0.0]),
+        };
+        let (x, inner_bound) = self.constant_last(inner, opposite)?;
+        let found = [self.constant(inner_bound)?, self.constant(bound)?];
+        (found == bounds).then(|| self.build(Op::Saturate, &[x]))
     }
 }

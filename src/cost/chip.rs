@@ -1,0 +1,204 @@
+//! A chip's profile: what its instructions cost, and what its compiler merges, from a `.ron` file.
+
+use super::form::Form;
+use crate::grammar::{FileError, file};
+use crate::op::Op;
+use serde::Deserialize;
+use std::collections::BTreeMap;
+
+pub(super) const KIND: &str = "GPU profile";
+
+/// The most pipes that a chip may have.
+pub(super) const PIPES: usize = 4;
+
+/// Slots taken on each pipe.
+pub(super) type Slots = [f64; PIPES];
+
+/// What one chip's operations cost.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct Chip {
+    pub name: String,
+    pub description: String,
+    /// The pipes' names; they work beside each other.
+    pub pipes: Vec<String>,
+    pub merges: Merges,
+    /// By operation.
+    costs: Vec<Cost>,
+    /// Of a minimum of three.
+    three: Cost,
+    /// Of a constant that is no part of an instruction.
+    pub literal: Option<Slots>,
+}
+
+/// Slots, and cycles until the result can be read.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub(super) struct Cost {
+    pub slots: Slots,
+    pub latency: f64,
+}
+
+/// What the compiler merges, besides products with sums, signs of arguments, and square roots with
+/// their inverse.
+#[derive(Clone, Debug, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct Merges {
+    /// The instruction that is a minimum or maximum of three, or a clamp between constants.
+    pub min3: Option<String>,
+    /// Whether twice, four times and half an arithmetic result are free.
+    pub scaled_results: bool,
+    /// Whether the product of a quotient merges with a sum.
+    pub quotients: bool,
+    /// Whose results saturate for nothing.
+    pub saturates: Saturates,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
+pub(super) enum Saturates {
+    Every,
+    Arithmetic,
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct File {
+    name: String,
+    #[serde(default)]
+    description: String,
+    pipes: Vec<String>,
+    instructions: BTreeMap<String, Instruction>,
+    merges: Merges,
+    #[serde(default)]
+    literal: Option<String>,
+    /// The instructions that each operation becomes.
+    operations: BTreeMap<String, BTreeMap<String, u32>>,
+}
+
+/// A kind of instruction.
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Instruction {
+    /// One number for each pipe.
+    slots: Vec<f64>,
+    latency: f64,
+}
+
+impl Chip {
+    /// A chip from the text of a `.ron` file at `path`.
+    pub fn parse(path: &str, text: &str) -> Result<Chip, FileError> {
+        let file: File = file::parse(KIND, path, text)?;
+        Chip::of(file).map_err(|reason| FileError::Content {
+            kind: KIND,
+            path: path.to_owned(),
+            reason,
+        })
+    }
+
+    fn of(file: File) -> Result<Chip, String> {
+        if file.pipes.is_empty() || file.pipes.len() > PIPES {
+            return Err(format!("`pipes` must name 1 to {PIPES} pipes"));
+        }
+        for (name, instruction) in &file.instructions {
+            instruction.check(name, &file.pipes)?;
+        }
+        for name in file.operations.keys() {
+            file::operation(name)?;
+        }
+        let cost_of = |what: &str, parts: &BTreeMap<String, u32>| {
+            let mut cost = Cost::default();
+            for (kind, &count) in parts {
+                let found = file.instructions.get(kind);
+                let instruction =
+                    found.ok_or_else(|| format!("{what}: no instruction is called \"{kind}\""))?;
+                cost.add(instruction, f64::from(count));
+            }
+            Ok(cost)
+        };
+        let single = |what: &str, kind: &Option<String>| match kind {
+            Some(kind) => cost_of(what, &BTreeMap::from([(kind.clone(), 1)])).map(Some),
+            None => Ok(None),
+        };
+        let costs = Op::ALL.iter().map(|op| match file.operations.get(op.name()) {
+            Some(parts) => cost_of(&format!("operation \"{op}\""), parts),
+            None => Err(format!("operation \"{op}\" is missing")),
+        });
+        Ok(Chip {
+            costs: costs.collect::<Result<_, String>>()?,
+            three: single("`min3`", &file.merges.min3)?.unwrap_or_default(),
+            literal: single("`literal`", &file.literal)?.map(|cost| cost.slots),
+            name: file.name,
+            description: file.description,
+            pipes: file.pipes,
+            merges: file.merges,
+        })
+    }
+
+    /// The cost of an operation by itself, with nothing merged.
+    pub fn of_op(&self, op: Op) -> &Cost {
+        &self.costs[op as usize]
+    }
+
+    /// The cost of an instruction.
+    pub fn of_form(&self, form: Form) -> Cost {
+        match form {
+            Form::Merged => Cost::default(),
+            Form::As(op) => *self.of_op(op),
+            Form::Three => self.three,
+            Form::Products(count) => self.of_op(Op::Mul).times(f64::from(count)),
+            Form::Quotient { inverse, product } => {
+                let mut cost = inverse.map_or(Cost::default(), |op| *self.of_op(op));
+                if product {
+                    cost = cost.plus(self.of_op(Op::Mul));
+                }
+                cost
+            }
+        }
+    }
+}
+
+/// Cycles for these slots: the busiest pipe decides.
+pub(super) fn busiest(slots: &Slots) -> f64 {
+    slots.iter().fold(0.0, |most, &slots| f64::max(most, slots))
+}
+
+impl Cost {
+    fn add(&mut self, instruction: &Instruction, count: f64) {
+        for (total, slots) in self.slots.iter_mut().zip(&instruction.slots) {
+            *total += slots * count;
+        }
+        self.latency += instruction.latency * count;
+    }
+
+    fn plus(&self, other: &Cost) -> Cost {
+        Cost {
+            slots: std::array::from_fn(|pipe| self.slots[pipe] + other.slots[pipe]),
+            latency: self.latency + other.latency,
+        }
+    }
+
+    fn times(&self, count: f64) -> Cost {
+        Cost { slots: self.slots.map(|slots| slots * count), latency: self.latency * count }
+    }
+}
+
+impl Instruction {
+    fn check(&self, name: &str, pipes: &[String]) -> Result<(), String> {
+        let is_number = |number: f64| number.is_finite() && number >= 0.0;
+        if self.slots.len() != pipes.len() {
+            return Err(format!(
+                "instruction \"{name}\": `slots` must have a number for each of the {} pipes",
+                pipes.len()
+            ));
+        }
+        if !self.slots.iter().all(|&slots| is_number(slots))
+            || self.slots.iter().sum::<f64>() == 0.0
+        {
+            return Err(format!(
+                "instruction \"{name}\": `slots` must be numbers of cycles, not all of them 0"
+            ));
+        }
+        match is_number(self.latency) {
+            true => Ok(()),
+            false => Err(format!("instruction \"{name}\": `latency` must be a number of cycles")),
+        }
+    }
+}
