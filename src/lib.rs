@@ -19,7 +19,7 @@
 //! | [`eval`] | the data-parallel interpreter, losses, normal equations, scores; the same programs in f64, f16, intervals |
 //! | [`fit`] | derivatives by constants, Levenberg–Marquardt, constants with few digits |
 //! | [`archive`], [`search`] | the Pareto archive; islands, variation, fronts, runs on disk |
-//! | [`emit`] | formulas as HLSL, WGSL, GLSL, and back |
+//! | [`emit`] | formulas as HLSL, WGSL, GLSL, MSL, and back; as C, Rust, Python, LaTeX |
 //! | [`quadrature`], [`microfacet`], [`targets`] | integration, BRDF models, ground truths |
 //! | [`report`] | tables and pictures |
 //! | [`cli`] | a file a subcommand |

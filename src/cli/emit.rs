@@ -9,7 +9,7 @@ use std::path::PathBuf;
 pub struct Args {
     /// A folder that `lgp search` wrote
     run: PathBuf,
-    /// hlsl, wgsl or glsl
+    /// hlsl, wgsl, glsl, msl, c, rust, python or latex
     #[arg(long, value_name = "L", value_parser = Language::from_name)]
     lang: Language,
     /// Which one: its number in the table, or the knee [default: knee]

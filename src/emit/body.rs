@@ -1,29 +1,26 @@
 //! The statements of a function.
 
-use super::{Binding, Signature, Spelling, Syntax, naming::Naming};
-use crate::op::MAX_ARITY;
+use super::naming::Naming;
+use super::syntax::{Binding, Signature, Spelling, Syntax, pieces, power};
+use crate::op::{MAX_ARITY, Op};
 use crate::program::{Arg, Program};
 
-/// No expression is longer, unless its names are; with the declaration around it a line stays
-/// within 100 columns.
-const WIDTH: usize = 72;
-
-/// One for each output, and for each result that is read more than once or too long to be read
-/// in place.
+/// One for each output, and for each result that is read or written more than once or too long
+/// to be read in place.
 pub(super) fn statements(
     syntax: &Syntax,
     program: &Program,
     signature: &Signature,
     naming: &mut Naming,
 ) -> Vec<String> {
-    let folded = fold(program);
-    let counts = use_counts(program, &folded);
+    let forms = forms(program, syntax.power.is_some());
+    let counts = use_counts(program, &forms);
     let mut body = Body {
         syntax,
         program,
         signature,
         naming,
-        folded,
+        forms,
         codes: Vec::with_capacity(program.instrs.len()),
         statements: Vec::new(),
         non_finite: Vec::new(),
@@ -35,27 +32,53 @@ pub(super) fn statements(
     body.statements
 }
 
-/// The value of each instruction that depends on no input.
-fn fold(program: &Program) -> Vec<Option<f32>> {
-    let mut folded: Vec<Option<f32>> = Vec::with_capacity(program.instrs.len());
+/// What is written for an instruction.
+#[derive(Clone, Copy, Debug, PartialEq)]
+enum Form {
+    /// Its value, as it depends on no input.
+    Constant(f32),
+    /// So many factors of the same value.
+    Power(Arg, u32),
+    Operation,
+}
+
+fn forms(program: &Program, powers: bool) -> Vec<Form> {
+    let mut forms: Vec<Form> = Vec::with_capacity(program.instrs.len());
     for instr in &program.instrs {
-        let mut args = [0.0; MAX_ARITY];
-        let known = args.iter_mut().zip(instr.args()).all(|(to, &arg)| {
-            let value = match arg {
-                Arg::Input(_) => None,
-                Arg::Const(i) => Some(program.consts[usize::from(i)]),
-                Arg::Result(i) => folded[usize::from(i)],
-            };
+        let constant = |arg: Arg| match arg {
+            Arg::Input(_) => None,
+            Arg::Const(i) => Some(program.consts[usize::from(i)]),
+            Arg::Result(i) => match forms[usize::from(i)] {
+                Form::Constant(value) => Some(value),
+                _ => None,
+            },
+        };
+        let factors = |arg: Arg| match arg {
+            Arg::Result(i) => match forms[usize::from(i)] {
+                Form::Power(base, count) => (base, count),
+                _ => (arg, 1),
+            },
+            _ => (arg, 1),
+        };
+        let mut values = [0.0; MAX_ARITY];
+        let known = values.iter_mut().zip(instr.args()).all(|(to, &arg)| {
+            let value = constant(arg);
             *to = value.unwrap_or(0.0);
             value.is_some()
         });
-        folded.push(known.then(|| instr.op().apply(args)));
+        forms.push(match (instr.op(), instr.args()) {
+            (op, _) if known => Form::Constant(op.apply(values)),
+            (Op::Mul, &[a, b]) if powers && factors(a).0 == factors(b).0 => {
+                Form::Power(factors(a).0, factors(a).1 + factors(b).1)
+            }
+            _ => Form::Operation,
+        });
     }
-    folded
+    forms
 }
 
-/// How often each result is read by an output or by code that is not folded.
-fn use_counts(program: &Program, folded: &[Option<f32>]) -> Vec<u32> {
+/// How often each result is read by an output or by what is written.
+fn use_counts(program: &Program, forms: &[Form]) -> Vec<u32> {
     let mut counts = vec![0; program.instrs.len()];
     let count = |args: &[Arg], counts: &mut Vec<u32>| {
         for &arg in args {
@@ -66,8 +89,11 @@ fn use_counts(program: &Program, folded: &[Option<f32>]) -> Vec<u32> {
     };
     count(&program.outputs, &mut counts);
     for (i, instr) in program.instrs.iter().enumerate().rev() {
-        if counts[i] > 0 && folded[i].is_none() {
-            count(instr.args(), &mut counts);
+        match forms[i] {
+            _ if counts[i] == 0 => {}
+            Form::Constant(_) => {}
+            Form::Power(base, _) => count(&[base], &mut counts),
+            Form::Operation => count(instr.args(), &mut counts),
         }
     }
     counts
@@ -93,7 +119,7 @@ struct Body<'a, 'n> {
     program: &'a Program,
     signature: &'a Signature,
     naming: &'a mut Naming<'n>,
-    folded: Vec<Option<f32>>,
+    forms: Vec<Form>,
     codes: Vec<Code>,
     statements: Vec<String>,
     /// The bits and the name of each infinity or NaN declared so far.
@@ -104,10 +130,14 @@ impl Body<'_, '_> {
     fn instruction(&mut self, i: usize, count: u32) {
         let output =
             self.program.outputs.iter().position(|&output| output == Arg::Result(i as u16));
-        let code = match self.folded[i] {
+        let code = match self.forms[i] {
             _ if count == 0 => Code::name(String::new()),
-            Some(value) => self.constant(value),
-            None => self.expression(i),
+            Form::Constant(value) => self.constant(value),
+            Form::Power(base, count) => self.power(base, count),
+            Form::Operation => {
+                let instr = &self.program.instrs[i];
+                self.expression((self.syntax.spelling)(instr.op()), instr.args())
+            }
         };
         let name = match output {
             Some(output) => Some(self.signature.outputs[output].clone()),
@@ -122,6 +152,7 @@ impl Body<'_, '_> {
     }
 
     fn declare(&mut self, name: String, value: &str) -> Code {
+        let name = (self.syntax.written)(&name);
         self.statements.push((self.syntax.local)(&name, value));
         Code::name(name)
     }
@@ -138,24 +169,60 @@ impl Body<'_, '_> {
         }
     }
 
-    fn expression(&mut self, i: usize) -> Code {
-        let instr = self.program.instrs[i];
-        let spelling = (self.syntax.spelling)(instr.op());
-        let mut args: Vec<Code> = instr.args().iter().map(|&arg| self.argument(arg)).collect();
-        let mut text = filled(&spelling, &args);
-        while text.len() > WIDTH {
+    fn power(&mut self, base: Arg, count: u32) -> Code {
+        let template = self.syntax.power.expect("powers are formed where they can be written");
+        let mut code = self.expression(power(template), &[base]);
+        code.text = code.text.replace("{n}", &count.to_string());
+        code
+    }
+
+    fn expression(&mut self, spelling: Spelling, args: &[Arg]) -> Code {
+        let mut args: Vec<Code> = args.iter().map(|&arg| self.argument(arg)).collect();
+        for (i, arg) in args.iter_mut().enumerate() {
+            let places = pieces(spelling.template).0;
+            let written = places.iter().filter(|(_, place)| place.argument == i).count();
+            if written > 1 && arg.in_place {
+                self.name(arg);
+            }
+        }
+        let mut text = self.filled(&spelling, &args);
+        while text.len() > self.syntax.width {
             let in_place = args.iter_mut().filter(|arg| arg.in_place);
             let Some(longest) = in_place.max_by_key(|arg| arg.text.len()) else { break };
-            let name = self.naming.temporary();
-            *longest = self.declare(name, &longest.text);
-            text = filled(&spelling, &args);
+            self.name(longest);
+            text = self.filled(&spelling, &args);
         }
         Code { text, binding: spelling.binding, in_place: true }
     }
 
+    /// Makes the expression a local.
+    fn name(&mut self, code: &mut Code) {
+        let name = self.naming.temporary();
+        *code = self.declare(name, &code.text);
+    }
+
+    /// The template with the arguments in its places.
+    fn filled(&self, spelling: &Spelling, args: &[Code]) -> String {
+        let [open, close] = self.syntax.parentheses;
+        let (places, rest) = pieces(spelling.template);
+        let mut text = String::new();
+        for (before, place) in places {
+            text.push_str(before);
+            let arg = &args[place.argument];
+            if arg.binding >= place.least {
+                text.push_str(&arg.text);
+            } else {
+                text.extend([open, &arg.text, close]);
+            }
+        }
+        text + rest
+    }
+
     fn argument(&mut self, arg: Arg) -> Code {
         match arg {
-            Arg::Input(i) => Code::name(self.signature.inputs[usize::from(i)].clone()),
+            Arg::Input(i) => {
+                Code::name((self.syntax.written)(&self.signature.inputs[usize::from(i)]))
+            }
             Arg::Const(i) => self.constant(self.program.consts[usize::from(i)]),
             Arg::Result(i) => self.codes[usize::from(i)].clone(),
         }
@@ -182,59 +249,8 @@ impl Body<'_, '_> {
         let name = self.naming.fresh(name);
         let bits_name = self.naming.fresh(&format!("{name}_bits"));
         self.statements.extend((self.syntax.non_finite)(&name, &bits_name, bits));
+        let name = (self.syntax.written)(&name);
         self.non_finite.push((bits, name.clone()));
         Code::name(name)
-    }
-}
-
-/// The template with the arguments in its places.
-fn filled(spelling: &Spelling, args: &[Code]) -> String {
-    let mut pieces = spelling.template.split('{');
-    let mut text = pieces.next().unwrap_or("").to_owned();
-    for piece in pieces {
-        let (place, rest) = piece.split_once('}').unwrap_or((piece, ""));
-        let (index, least) = argument_place(place);
-        let arg = &args[index];
-        if arg.binding >= least {
-            text.push_str(&arg.text);
-        } else {
-            text.extend(["(", &arg.text, ")"]);
-        }
-        text.push_str(rest);
-    }
-    text
-}
-
-/// Which argument a template's `a*` stands for, and how tightly that must bind.
-pub(super) fn argument_place(place: &str) -> (usize, Binding) {
-    let (name, mark) = place.split_at(1);
-    let least = match mark {
-        "+" => Binding::Sum,
-        "*" => Binding::Product,
-        "-" => Binding::Negation,
-        "!" => Binding::Atom,
-        _ => Binding::Select,
-    };
-    (usize::from(name.as_bytes()[0] - b'a'), least)
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::emit::Language;
-    use crate::op::Op;
-
-    #[test]
-    fn every_spelling_writes_each_argument_once() {
-        for language in Language::ALL {
-            for &op in Op::ALL {
-                let template = (language.syntax().spelling)(op).template;
-                let mut places: Vec<usize> = (template.split('{').skip(1))
-                    .map(|piece| argument_place(piece.split('}').next().unwrap()).0)
-                    .collect();
-                places.sort_unstable();
-                assert!(places.into_iter().eq(0..op.arity()), "{op} in {language}: {template}");
-            }
-        }
     }
 }

@@ -1,6 +1,10 @@
 //! GLSL: what `#version 300 es` (WebGL2) and desktop versions have in common.
 
-use super::{Signature, Spelling, Syntax, atom, decimal, is_word, negation, product, select, sum};
+use super::c_family;
+use super::syntax::{
+    PARENTHESES, Signature, Spelling, Syntax, WIDTH, atom, decimal, is_word, negation, product,
+    select, sum,
+};
 use crate::op::Op;
 
 pub(super) static SYNTAX: Syntax = Syntax {
@@ -8,18 +12,21 @@ pub(super) static SYNTAX: Syntax = Syntax {
     aliases: &["opengl", "webgl", "webgl2", "essl", "gl"],
     extension: "glsl",
     comment: "//",
+    types: &["float", "vec2", "vec3", "vec4"],
     spelling,
+    power: None,
+    parentheses: PARENTHESES,
+    width: WIDTH,
     reserved,
+    written: str::to_owned,
     literal: decimal,
     // In ES 3.00 the initialiser of a `const` must be constant.
     local: |name, value| format!("float {name} = {value};"),
     non_finite: |name, _, bits| vec![format!("float {name} = uintBitsToFloat({bits:#010x}u);")],
-    open,
+    open: c_family::open,
     close,
     float_of_bits: "uintBitsToFloat",
 };
-
-const TYPES: [&str; 4] = ["float", "vec2", "vec3", "vec4"];
 
 fn spelling(op: Op) -> Spelling {
     match op {
@@ -59,29 +66,16 @@ fn spelling(op: Op) -> Spelling {
     }
 }
 
-fn open(signature: &Signature) -> Vec<String> {
-    let Signature { function, inputs, outputs, structure, .. } = signature;
-    let inputs: Vec<String> = inputs.iter().map(|name| format!("float {name}")).collect();
-    let mut lines = Vec::new();
-    let returned = TYPES.get(outputs.len() - 1).copied().unwrap_or(structure);
-    if returned == structure {
-        lines.push(format!("struct {structure} {{"));
-        lines.extend(outputs.iter().map(|name| format!("    float {name};")));
-        lines.push("};".to_owned());
-    }
-    lines.push(format!("{returned} {function}({}) {{", inputs.join(", ")));
-    lines
-}
-
-fn close(signature: &Signature) -> Vec<String> {
+fn close(syntax: &Syntax, signature: &Signature, lines: &mut Vec<String>) {
     let Signature { outputs, structure, .. } = signature;
-    let values = outputs.join(", ");
-    let returned = match TYPES.get(outputs.len() - 1) {
-        Some(&"float") => format!("    return {values};"),
-        Some(vector) => format!("    return {vector}({values});"),
-        None => format!("    return {structure}({values});"),
-    };
-    vec![returned, "}".to_owned()]
+    match syntax.types.get(outputs.len() - 1) {
+        Some(_) => c_family::close(syntax, signature, lines),
+        // ES 3.00 initialises a structure by its constructor.
+        None => {
+            lines.push(format!("    return {structure}({});", outputs.join(", ")));
+            lines.push("}".to_owned());
+        }
+    }
 }
 
 fn reserved(name: &str) -> bool {

@@ -1,6 +1,9 @@
 //! HLSL, for shader model 5 and later.
 
-use super::{Signature, Spelling, Syntax, atom, decimal, is_word, negation, product, select, sum};
+use super::c_family;
+use super::syntax::{
+    PARENTHESES, Spelling, Syntax, WIDTH, atom, decimal, is_word, negation, product, select, sum,
+};
 use crate::op::Op;
 
 pub(super) static SYNTAX: Syntax = Syntax {
@@ -8,17 +11,20 @@ pub(super) static SYNTAX: Syntax = Syntax {
     aliases: &["directx", "dx", "fx"],
     extension: "hlsl",
     comment: "//",
+    types: &["float", "float2", "float3", "float4"],
     spelling,
+    power: None,
+    parentheses: PARENTHESES,
+    width: WIDTH,
     reserved,
+    written: str::to_owned,
     literal: decimal,
     local: |name, value| format!("const float {name} = {value};"),
     non_finite: |name, _, bits| vec![format!("const float {name} = asfloat({bits:#010x});")],
-    open,
-    close,
+    open: c_family::open,
+    close: c_family::close,
     float_of_bits: "asfloat",
 };
-
-const TYPES: [&str; 4] = ["float", "float2", "float3", "float4"];
 
 fn spelling(op: Op) -> Spelling {
     match op {
@@ -57,35 +63,6 @@ fn spelling(op: Op) -> Spelling {
         // `sign` is an int: the quotient of two would be rounded.
         Op::Sign => atom("float(sign({a}))"),
     }
-}
-
-fn open(signature: &Signature) -> Vec<String> {
-    let Signature { function, inputs, outputs, structure, .. } = signature;
-    let inputs: Vec<String> = inputs.iter().map(|name| format!("float {name}")).collect();
-    let mut lines = Vec::new();
-    let returned = TYPES.get(outputs.len() - 1).copied().unwrap_or(structure);
-    if returned == structure {
-        lines.push(format!("struct {structure} {{"));
-        lines.extend(outputs.iter().map(|name| format!("    float {name};")));
-        lines.push("};".to_owned());
-    }
-    lines.push(format!("{returned} {function}({}) {{", inputs.join(", ")));
-    lines
-}
-
-fn close(signature: &Signature) -> Vec<String> {
-    let Signature { outputs, structure, result, .. } = signature;
-    let values = outputs.join(", ");
-    let mut lines = match TYPES.get(outputs.len() - 1) {
-        Some(&"float") => vec![format!("    return {values};")],
-        Some(vector) => vec![format!("    return {vector}({values});")],
-        None => vec![
-            format!("    const {structure} {result} = {{ {values} }};"),
-            format!("    return {result};"),
-        ],
-    };
-    lines.push("}".to_owned());
-    lines
 }
 
 /// Some keywords may be written in any case (`Texture2D`, `TECHNIQUE`), so none is told by it.

@@ -1,9 +1,11 @@
-//! Programs as functions to paste into a shader, one file a language.
+//! Programs as functions to paste into a shader or a program, or an equation into a paper, one
+//! file a language.
 //!
 //! Emitted code follows the program exactly: nothing is re-associated, a division stays a
 //! division, and a result that is read more than once is computed once, as a named local.
 //! Only what depends on no input is computed here, by the reference semantics: an infinite
-//! constant expression is a compile error in WGSL.
+//! constant expression is a compile error in WGSL. Where an argument is NaN, languages differ in
+//! what `min`, `max` and a clamp make of it, and where it is negative in what `pow` does.
 //!
 //! ```
 //! use lgp::emit::{Language, Snippet, emit};
@@ -23,19 +25,26 @@
 //! ```
 
 mod body;
+mod c;
+mod c_family;
 mod glsl;
 mod hlsl;
+mod latex;
+mod msl;
 mod naming;
+mod python;
 mod read;
+mod rust;
+mod syntax;
 mod wgsl;
 
 pub use read::{ReadError, read_back};
 
-use crate::op::Op;
-use crate::program::{Names, Program, format_constant};
+use crate::program::{Names, Program};
 use crate::suggest::did_you_mean;
 use naming::Naming;
 use std::fmt;
+use syntax::Syntax;
 
 /// A language that programs can be written in.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -46,6 +55,15 @@ pub enum Language {
     Wgsl,
     /// OpenGL, Vulkan, WebGL2: what `#version 300 es` and desktop GLSL have in common.
     Glsl,
+    /// Metal, with `using namespace metal`.
+    Msl,
+    /// C99, and C++.
+    C,
+    Rust,
+    /// Of numpy arrays.
+    Python,
+    /// `align*`, for a paper.
+    Latex,
 }
 
 /// A name that is no language's.
@@ -58,7 +76,20 @@ pub struct UnknownLanguage {
 }
 
 impl Language {
-    pub const ALL: &'static [Language] = &[Language::Hlsl, Language::Wgsl, Language::Glsl];
+    pub const ALL: &'static [Language] = &[
+        Language::Hlsl,
+        Language::Wgsl,
+        Language::Glsl,
+        Language::Msl,
+        Language::C,
+        Language::Rust,
+        Language::Python,
+        Language::Latex,
+    ];
+
+    /// The shading languages: those that [`read_back`] understands.
+    pub const SHADING: &'static [Language] =
+        &[Language::Hlsl, Language::Wgsl, Language::Glsl, Language::Msl];
 
     /// The language of this name or alias, in upper or lower case.
     ///
@@ -94,6 +125,11 @@ impl Language {
             Language::Hlsl => &hlsl::SYNTAX,
             Language::Wgsl => &wgsl::SYNTAX,
             Language::Glsl => &glsl::SYNTAX,
+            Language::Msl => &msl::SYNTAX,
+            Language::C => &c::SYNTAX,
+            Language::Rust => &rust::SYNTAX,
+            Language::Python => &python::SYNTAX,
+            Language::Latex => &latex::SYNTAX,
         }
     }
 }
@@ -131,10 +167,10 @@ pub fn emit(language: Language, snippet: &Snippet) -> String {
     let mut lines: Vec<String> =
         header.iter().flat_map(|line| line.lines()).map(|line| comment(syntax, line)).collect();
     lines.extend(naming.renamed().iter().map(|line| comment(syntax, line)));
-    lines.extend((syntax.open)(&signature));
+    (syntax.open)(syntax, &signature, &mut lines);
     let statements = body::statements(syntax, program, &signature, &mut naming);
     lines.extend(statements.iter().map(|line| format!("    {line}")));
-    lines.extend((syntax.close)(&signature));
+    (syntax.close)(syntax, &signature, &mut lines);
     lines.join("\n") + "\n"
 }
 
@@ -149,7 +185,7 @@ fn function_name(function: &str, names: &Names) -> String {
 }
 
 /// A comment of one line whatever `text` holds: more characters than `\n` end a line in WGSL,
-/// and a backslash at its end continues it in HLSL and GLSL.
+/// and a backslash at its end continues it in HLSL, GLSL and C.
 fn comment(syntax: &Syntax, text: &str) -> String {
     let separator = |c: char| c.is_control() || c == '\u{2028}' || c == '\u{2029}';
     let mut text = text.replace(separator, " ").trim_end().to_owned();
@@ -157,90 +193,4 @@ fn comment(syntax: &Syntax, text: &str) -> String {
         text.push_str(" .");
     }
     format!("{} {text}", syntax.comment).trim_end().to_owned()
-}
-
-/// All that tells one language from another.
-struct Syntax {
-    name: &'static str,
-    aliases: &'static [&'static str],
-    extension: &'static str,
-    /// What begins a comment that ends with its line.
-    comment: &'static str,
-    spelling: fn(Op) -> Spelling,
-    /// Whether a name is a keyword, a type, a builtin function, or of a form that may not be
-    /// declared. A plain identifier that ends in `_` or `_2` never is, so that each name can be
-    /// replaced by one like it.
-    reserved: fn(&str) -> bool,
-    literal: fn(f32) -> String,
-    /// The declaration of a local that is never changed.
-    local: fn(name: &str, value: &str) -> String,
-    /// The declaration of a local that is infinite or NaN, and perhaps of one for its bits.
-    non_finite: fn(name: &str, bits_name: &str, bits: u32) -> Vec<String>,
-    /// The lines above the function's body.
-    open: fn(&Signature) -> Vec<String>,
-    /// The lines that return the outputs and end the function.
-    close: fn(&Signature) -> Vec<String>,
-    /// The function that makes a float of its bits.
-    float_of_bits: &'static str,
-}
-
-/// The names of a function's parts, as the language allows them.
-struct Signature {
-    function: String,
-    inputs: Vec<String>,
-    outputs: Vec<String>,
-    /// The type and the local that hold more outputs than a vector can.
-    structure: String,
-    result: String,
-}
-
-/// How tightly a piece of code binds.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
-enum Binding {
-    Select,
-    Sum,
-    Product,
-    Negation,
-    Atom,
-}
-
-/// How an operation is written: `{a}`, `{b}`, `{c}`, `{d}` stand for its arguments, and a mark
-/// says how tightly the argument must bind to need no parentheses: none anything, `+` a sum,
-/// `*` a product, `-` a negation, `!` an atom.
-struct Spelling {
-    template: &'static str,
-    binding: Binding,
-}
-
-const fn select(template: &'static str) -> Spelling {
-    Spelling { template, binding: Binding::Select }
-}
-
-const fn sum(template: &'static str) -> Spelling {
-    Spelling { template, binding: Binding::Sum }
-}
-
-const fn product(template: &'static str) -> Spelling {
-    Spelling { template, binding: Binding::Product }
-}
-
-const fn negation(template: &'static str) -> Spelling {
-    Spelling { template, binding: Binding::Negation }
-}
-
-const fn atom(template: &'static str) -> Spelling {
-    Spelling { template, binding: Binding::Atom }
-}
-
-/// The shortest decimal that reads back as `value` and that no compiler takes for an integer.
-fn decimal(value: f32) -> String {
-    // The shortest decimal of the largest number, …35e38, lies above it: out of range where it
-    // is read in higher precision first, as in WGSL.
-    let text = format_constant(value).replace("3.4028235e38", "3.4028234e38");
-    if text.contains(['.', 'e']) { text } else { text + ".0" }
-}
-
-/// Whether `name` is one of the words of `list`.
-fn is_word(list: &str, name: &str) -> bool {
-    list.split_ascii_whitespace().any(|word| word == name)
 }

@@ -1,6 +1,6 @@
 //! Names that a language allows and that do not collide.
 
-use super::Signature;
+use super::syntax::Signature;
 use crate::program::Names;
 use std::collections::HashSet;
 

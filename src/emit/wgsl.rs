@@ -1,6 +1,8 @@
 //! WGSL.
 
-use super::{Signature, Spelling, Syntax, atom, decimal, is_word, negation, product, sum};
+use super::syntax::{
+    PARENTHESES, Signature, Spelling, Syntax, WIDTH, atom, decimal, is_word, negation, product, sum,
+};
 use crate::op::Op;
 
 pub(super) static SYNTAX: Syntax = Syntax {
@@ -8,8 +10,13 @@ pub(super) static SYNTAX: Syntax = Syntax {
     aliases: &["webgpu", "wgpu"],
     extension: "wgsl",
     comment: "//",
+    types: &["f32", "vec2<f32>", "vec3<f32>", "vec4<f32>"],
     spelling,
+    power: None,
+    parentheses: PARENTHESES,
+    width: WIDTH,
     reserved,
+    written: str::to_owned,
     literal: decimal,
     local: |name, value| format!("let {name} = {value};"),
     // An infinite constant expression is an error; what a variable holds is no constant.
@@ -23,8 +30,6 @@ pub(super) static SYNTAX: Syntax = Syntax {
     close,
     float_of_bits: "bitcast",
 };
-
-const TYPES: [&str; 4] = ["f32", "vec2<f32>", "vec3<f32>", "vec4<f32>"];
 
 fn spelling(op: Op) -> Spelling {
     match op {
@@ -64,29 +69,28 @@ fn spelling(op: Op) -> Spelling {
     }
 }
 
-fn open(signature: &Signature) -> Vec<String> {
+fn open(syntax: &Syntax, signature: &Signature, lines: &mut Vec<String>) {
     let Signature { function, inputs, outputs, structure, .. } = signature;
-    let inputs: Vec<String> = inputs.iter().map(|name| format!("{name}: f32")).collect();
-    let mut lines = Vec::new();
-    let returned = TYPES.get(outputs.len() - 1).copied().unwrap_or(structure);
+    let float = syntax.types[0];
+    let inputs: Vec<String> = inputs.iter().map(|name| format!("{name}: {float}")).collect();
+    let returned = syntax.types.get(outputs.len() - 1).copied().unwrap_or(structure);
     if returned == structure {
         lines.push(format!("struct {structure} {{"));
-        lines.extend(outputs.iter().map(|name| format!("    {name}: f32,")));
+        lines.extend(outputs.iter().map(|name| format!("    {name}: {float},")));
         lines.push("}".to_owned());
     }
     lines.push(format!("fn {function}({}) -> {returned} {{", inputs.join(", ")));
-    lines
 }
 
-fn close(signature: &Signature) -> Vec<String> {
+fn close(syntax: &Syntax, signature: &Signature, lines: &mut Vec<String>) {
     let Signature { outputs, structure, .. } = signature;
     let values = outputs.join(", ");
-    let returned = match TYPES.get(outputs.len() - 1) {
-        Some(&"f32") => format!("    return {values};"),
+    lines.push(match syntax.types.get(outputs.len() - 1) {
+        Some(_) if outputs.len() == 1 => format!("    return {values};"),
         Some(vector) => format!("    return {vector}({values});"),
         None => format!("    return {structure}({values});"),
-    };
-    vec![returned, "}".to_owned()]
+    });
+    lines.push("}".to_owned());
 }
 
 fn reserved(name: &str) -> bool {

@@ -1,8 +1,7 @@
 //! Calls of functions, and which operation is written as which.
 
 use super::{Read, Reader, Value};
-use crate::emit::Syntax;
-use crate::emit::body::argument_place;
+use crate::emit::syntax::{self, Syntax};
 use crate::op::{MAX_ARITY, Op};
 use crate::program::Arg;
 use crate::suggest::did_you_mean;
@@ -110,7 +109,10 @@ fn call_of(syntax: &Syntax, op: Op) -> Option<Call> {
 }
 
 fn place(text: &str) -> Option<Place> {
-    let argument = |text: &str| Some(argument_place(text.strip_prefix('{')?.strip_suffix('}')?).0);
+    let argument = |text: &str| match syntax::place(text) {
+        Some((place, length)) if length == text.len() => Some(place.argument),
+        _ => None,
+    };
     match text.split_once(" < ") {
         Some((a, b)) => Some(Place::Less(argument(a)?, argument(b)?)),
         None => {

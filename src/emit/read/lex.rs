@@ -11,8 +11,8 @@ pub(super) enum Token {
     Symbol(char),
 }
 
-/// The tokens, each with the byte offset at which it starts. `<f32>` says nothing that is not
-/// known: it is read as a space.
+/// The tokens, each with the byte offset at which it starts. `<f32>` and `<float>` say nothing
+/// that is not known: they are read as a space.
 pub(super) fn tokens(text: &str) -> Result<Vec<(usize, Token)>, ReadError> {
     let mut tokens = Vec::new();
     let mut at = 0;
@@ -23,6 +23,7 @@ pub(super) fn tokens(text: &str) -> Result<Vec<(usize, Token)>, ReadError> {
             _ if rest.starts_with("//") => (None, rest.find('\n').unwrap_or(rest.len())),
             _ if rest.starts_with("/*") => (None, rest.find("*/").map_or(rest.len(), |i| i + 2)),
             _ if rest.starts_with("<f32>") => (None, "<f32>".len()),
+            _ if rest.starts_with("<float>") => (None, "<float>".len()),
             c if c.is_ascii_alphabetic() || c == '_' => {
                 let length = count(rest, |b| b.is_ascii_alphanumeric() || b == b'_');
                 (Some(Token::Name(rest[..length].to_owned())), length)

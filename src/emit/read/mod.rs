@@ -44,8 +44,14 @@ impl ReadError {
 /// that were written differently.
 ///
 /// # Errors
-/// [`ReadError`] says where the text is not understood.
+/// [`ReadError`] says where the text is not understood. No language is but those of
+/// [`Language::SHADING`].
 pub fn read_back(language: Language, text: &str) -> Result<(Program, Names), ReadError> {
+    if !Language::SHADING.contains(&language) {
+        let known: Vec<&str> = Language::SHADING.iter().map(|known| known.name()).collect();
+        let message = format!("{language} is not read back (but {} are)", known.join(", "));
+        return Err(ReadError::at(text, 0, message));
+    }
     let mut reader = Reader {
         syntax: language.syntax(),
         text,

@@ -1,0 +1,122 @@
+//! C, of 1999 and later; the same text is C++.
+
+use super::c_family;
+use super::syntax::{
+    PARENTHESES, Signature, Spelling, Syntax, WIDTH, atom, decimal, is_word, negation, product,
+    select, sum,
+};
+use crate::op::Op;
+
+pub(super) static SYNTAX: Syntax = Syntax {
+    name: "c",
+    aliases: &["c99", "c++", "cpp"],
+    extension: "c",
+    comment: "//",
+    types: &["float"],
+    spelling,
+    power: None,
+    parentheses: PARENTHESES,
+    width: WIDTH,
+    reserved,
+    written: str::to_owned,
+    literal: |value| decimal(value) + "f",
+    local: |name, value| format!("const float {name} = {value};"),
+    non_finite: |name, _, bits| vec![format!("const float {name} = {};", non_finite(bits))],
+    open,
+    close: c_family::close,
+    float_of_bits: "",
+};
+
+fn spelling(op: Op) -> Spelling {
+    match op {
+        Op::Add => sum("{a+} + {b*}"),
+        Op::Sub => sum("{a+} - {b*}"),
+        Op::Mul => product("{a*}*{b-}"),
+        Op::Div => product("{a*}/{b-}"),
+        Op::Neg => negation("-{a!}"),
+        Op::Abs => atom("fabsf({a})"),
+        Op::Min => atom("fminf({a}, {b})"),
+        Op::Max => atom("fmaxf({a}, {b})"),
+        Op::Saturate => atom("fminf(fmaxf({a}, 0.0f), 1.0f)"),
+        Op::Mad => atom("fmaf({a}, {b}, {c})"),
+        Op::Rcp => product("1.0f/{a-}"),
+        Op::Sqrt => atom("sqrtf({a})"),
+        Op::Rsqrt => product("1.0f/sqrtf({a})"),
+        Op::Exp2 => atom("exp2f({a})"),
+        Op::Log2 => atom("log2f({a})"),
+        Op::Exp => atom("expf({a})"),
+        Op::Log => atom("logf({a})"),
+        Op::Pow => atom("powf({a}, {b})"),
+        Op::Sin => atom("sinf({a})"),
+        Op::Cos => atom("cosf({a})"),
+        Op::Tan => atom("tanf({a})"),
+        Op::Asin => atom("asinf({a})"),
+        Op::Acos => atom("acosf({a})"),
+        Op::Atan => atom("atanf({a})"),
+        Op::Atan2 => atom("atan2f({a}, {b})"),
+        Op::Tanh => atom("tanhf({a})"),
+        Op::Lerp => atom("fmaf({c}, {b+} - {a*}, {a})"),
+        Op::Step => select("({b+} >= {a+}) ? 1.0f : 0.0f"),
+        Op::Select => select("({a+} < {b+}) ? {c+} : {d+}"),
+        Op::Floor => atom("floorf({a})"),
+        Op::Fract => sum("{a+} - floorf({a})"),
+        Op::Sign => atom("(float)(({a+} > 0.0f) - ({a+} < 0.0f))"),
+    }
+}
+
+fn non_finite(bits: u32) -> &'static str {
+    match f32::from_bits(bits) {
+        f32::INFINITY => "INFINITY",
+        f32::NEG_INFINITY => "-INFINITY",
+        _ => "NAN",
+    }
+}
+
+fn open(syntax: &Syntax, signature: &Signature, lines: &mut Vec<String>) {
+    let Signature { outputs, structure, .. } = signature;
+    lines.extend(["#include <math.h>".to_owned(), String::new()]);
+    let returned = if outputs.len() == 1 { syntax.types[0] } else { structure };
+    if returned == structure {
+        lines.push("typedef struct {".to_owned());
+        lines.extend(c_family::members(syntax, outputs));
+        lines.push(format!("}} {structure};"));
+        lines.push(String::new());
+    }
+    lines.push(c_family::head(syntax, signature, returned));
+}
+
+/// Names that begin with an underscore are the compiler's.
+fn reserved(name: &str) -> bool {
+    let double = name.strip_suffix(['f', 'l']).unwrap_or(name);
+    name.starts_with('_')
+        || name.contains("__")
+        || is_word(KEYWORDS, name)
+        || is_word(MACROS, name)
+        || is_word(FUNCTIONS, name)
+        || is_word(FUNCTIONS, double)
+}
+
+/// Those of C and of C++.
+const KEYWORDS: &str = "alignas alignof and and_eq asm atomic_cancel atomic_commit \
+    atomic_noexcept auto bitand bitor bool break case catch char char8_t char16_t char32_t class \
+    co_await co_return co_yield compl concept const const_cast consteval constexpr constinit \
+    continue decltype default delete do double dynamic_cast else enum explicit export extern \
+    false float for friend goto if inline int long mutable namespace new noexcept not not_eq \
+    nullptr operator or or_eq private protected public reflexpr register reinterpret_cast requires \
+    restrict return short signed sizeof static static_assert static_cast struct switch \
+    synchronized template this thread_local throw true try typedef typeid typename typeof \
+    typeof_unqual union unsigned using virtual void volatile wchar_t while xor xor_eq main std \
+    double_t float_t fortran linux unix";
+
+const MACROS: &str = "INFINITY NAN HUGE_VAL HUGE_VALF HUGE_VALL FP_INFINITE FP_NAN FP_NORMAL \
+    FP_SUBNORMAL FP_ZERO FP_FAST_FMA FP_FAST_FMAF FP_FAST_FMAL FP_ILOGB0 FP_ILOGBNAN MAXFLOAT \
+    MATH_ERRNO MATH_ERREXCEPT math_errhandling M_E M_LOG2E M_LOG10E M_LN2 M_LN10 M_PI M_PI_2 \
+    M_PI_4 M_1_PI M_2_PI M_2_SQRTPI M_SQRT2 M_SQRT1_2 NULL fpclassify isfinite isgreater \
+    isgreaterequal isinf isless islessequal islessgreater isnan isnormal isunordered signbit \
+    issignaling issubnormal iszero signgam";
+
+const FUNCTIONS: &str = "acos acosh asin asinh atan atan2 atanh cbrt ceil copysign cos cosh drem \
+    erf erfc exp exp10 exp2 expm1 fabs fdim finite floor fma fmax fmin fmod frexp gamma hypot ilogb \
+    j0 j1 jn ldexp lgamma lgamma_r llrint llround log log10 log1p log2 logb lrint lround modf nan \
+    nearbyint nextafter nexttoward pow pow10 remainder remquo rint round scalb scalbln scalbn \
+    significand sin sincos sinh sqrt tan tanh tgamma trunc y0 y1 yn abs labs llabs div ldiv";

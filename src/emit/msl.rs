@@ -1,0 +1,109 @@
+//! MSL, the Metal shading language, under `using namespace metal`.
+
+use super::c_family;
+use super::syntax::{
+    PARENTHESES, Spelling, Syntax, WIDTH, atom, decimal, is_word, negation, product, select, sum,
+};
+use crate::op::Op;
+
+pub(super) static SYNTAX: Syntax = Syntax {
+    name: "msl",
+    aliases: &["metal"],
+    extension: "metal",
+    comment: "//",
+    types: &["float", "float2", "float3", "float4"],
+    spelling,
+    power: None,
+    parentheses: PARENTHESES,
+    width: WIDTH,
+    reserved,
+    written: str::to_owned,
+    literal: decimal,
+    local: |name, value| format!("const float {name} = {value};"),
+    non_finite: |name, _, bits| {
+        vec![format!("const float {name} = as_type<float>({bits:#010x}u);")]
+    },
+    open: c_family::open,
+    close: c_family::close,
+    float_of_bits: "as_type",
+};
+
+fn spelling(op: Op) -> Spelling {
+    match op {
+        Op::Add => sum("{a+} + {b*}"),
+        Op::Sub => sum("{a+} - {b*}"),
+        Op::Mul => product("{a*}*{b-}"),
+        Op::Div => product("{a*}/{b-}"),
+        Op::Neg => negation("-{a!}"),
+        Op::Abs => atom("abs({a})"),
+        Op::Min => atom("min({a}, {b})"),
+        Op::Max => atom("max({a}, {b})"),
+        Op::Saturate => atom("saturate({a})"),
+        Op::Mad => atom("fma({a}, {b}, {c})"),
+        Op::Rcp => product("1.0/{a-}"),
+        Op::Sqrt => atom("sqrt({a})"),
+        Op::Rsqrt => atom("rsqrt({a})"),
+        Op::Exp2 => atom("exp2({a})"),
+        Op::Log2 => atom("log2({a})"),
+        Op::Exp => atom("exp({a})"),
+        Op::Log => atom("log({a})"),
+        Op::Pow => atom("pow({a}, {b})"),
+        Op::Sin => atom("sin({a})"),
+        Op::Cos => atom("cos({a})"),
+        Op::Tan => atom("tan({a})"),
+        Op::Asin => atom("asin({a})"),
+        Op::Acos => atom("acos({a})"),
+        Op::Atan => atom("atan({a})"),
+        Op::Atan2 => atom("atan2({a}, {b})"),
+        Op::Tanh => atom("tanh({a})"),
+        Op::Lerp => atom("mix({a}, {b}, {c})"),
+        Op::Step => atom("step({a}, {b})"),
+        Op::Select => select("({a+} < {b+}) ? {c+} : {d+}"),
+        Op::Floor => atom("floor({a})"),
+        Op::Fract => atom("fract({a})"),
+        Op::Sign => atom("sign({a})"),
+    }
+}
+
+fn reserved(name: &str) -> bool {
+    name.starts_with('_')
+        || name.contains("__")
+        || is_word(KEYWORDS, name)
+        || is_word(FUNCTIONS, name)
+        || is_type(name)
+}
+
+/// `float`, `half3`, `packed_float3`, `float3x2`, and so on.
+fn is_type(name: &str) -> bool {
+    let unpacked = name.strip_prefix("packed_").unwrap_or(name);
+    let scalar = unpacked.trim_end_matches(|c: char| ('1'..='4').contains(&c) || c == 'x');
+    is_word(SCALARS, scalar) || is_word(SCALARS, name)
+}
+
+const SCALARS: &str = "bool char short int long uchar ushort uint ulong half float double int8_t \
+    int16_t int32_t int64_t uint8_t uint16_t uint32_t uint64_t size_t ptrdiff_t vec matrix bfloat";
+
+/// Those of C++14, and of Metal.
+const KEYWORDS: &str = "alignas alignof and and_eq asm atomic_bool atomic_int atomic_uint auto \
+    bitand bitor break case catch char16_t char32_t class compl const const_cast constexpr \
+    continue decltype default delete do dynamic_cast else enum explicit export extern false final \
+    for friend goto if inline mutable namespace new noexcept not not_eq nullptr operator or or_eq \
+    override private protected public register reinterpret_cast return signed sizeof static \
+    static_assert static_cast struct switch template this thread_local throw true try typedef \
+    typeid typename union unsigned using virtual void volatile wchar_t while xor xor_eq main metal \
+    access array array_ref buffer constant coord device fragment function function_constant kernel \
+    mesh patch ray_data raster_order_group sampler simdgroup threadgroup threadgroup_imageblock \
+    thread user vertex visible texture1d \
+    texture1d_array texture2d texture2d_array texture2d_ms texture2d_ms_array texture3d texturecube \
+    texturecube_array texture_buffer depth2d depth2d_array depth2d_ms depth2d_ms_array depthcube \
+    depthcube_array INFINITY NAN HUGE_VALF MAXFLOAT";
+
+const FUNCTIONS: &str = "abs absdiff acos acosh addsat all any as_type asin asinh atan atan2 atanh \
+    ceil clamp clz copysign cos cosh cospi cross ctz determinant dfdx dfdy discard_fragment \
+    distance distance_squared divide dot exp exp10 exp2 extract_bits faceforward fabs fast fdim \
+    floor fma fmax fmax3 fmedian3 fmin fmin3 fmod fract frexp fwidth hadd ilogb insert_bits isfinite \
+    isinf isnan isnormal isordered isunordered ldexp length length_squared log log10 log2 mad24 \
+    madhi madsat max max3 median3 min min3 mix modf mul24 mulhi nextafter normalize popcount pow \
+    powr precise quantize_to_f16 reflect refract reverse_bits rhadd rint rotate round rsqrt \
+    saturate select sign signbit simd sin sincos sinh sinpi smoothstep sqrt step subsat tan tanh \
+    tanpi transpose trunc";

@@ -1,0 +1,90 @@
+//! Python, of numpy arrays of whatever shape, or of numbers.
+
+use super::syntax::{
+    PARENTHESES, Signature, Spelling, Syntax, WIDTH, atom, decimal, is_word, negation, product, sum,
+};
+use crate::op::Op;
+
+pub(super) static SYNTAX: Syntax = Syntax {
+    name: "python",
+    aliases: &["py", "numpy"],
+    extension: "py",
+    comment: "#",
+    types: &[],
+    spelling,
+    power: None,
+    parentheses: PARENTHESES,
+    width: WIDTH,
+    reserved,
+    written: str::to_owned,
+    literal: decimal,
+    local: |name, value| format!("{name} = {value}"),
+    non_finite: |name, _, bits| vec![format!("{name} = {}", non_finite(bits))],
+    open,
+    close,
+    float_of_bits: "",
+};
+
+fn spelling(op: Op) -> Spelling {
+    match op {
+        Op::Add => sum("{a+} + {b*}"),
+        Op::Sub => sum("{a+} - {b*}"),
+        Op::Mul => product("{a*}*{b-}"),
+        Op::Div => product("{a*}/{b-}"),
+        Op::Neg => negation("-{a!}"),
+        Op::Abs => atom("np.abs({a})"),
+        Op::Min => atom("np.minimum({a}, {b})"),
+        Op::Max => atom("np.maximum({a}, {b})"),
+        Op::Saturate => atom("np.clip({a}, 0.0, 1.0)"),
+        Op::Mad => sum("{a*}*{b-} + {c*}"),
+        Op::Rcp => product("1.0/{a-}"),
+        Op::Sqrt => atom("np.sqrt({a})"),
+        Op::Rsqrt => product("1.0/np.sqrt({a})"),
+        Op::Exp2 => atom("np.exp2({a})"),
+        Op::Log2 => atom("np.log2({a})"),
+        Op::Exp => atom("np.exp({a})"),
+        Op::Log => atom("np.log({a})"),
+        Op::Pow => atom("np.power({a}, {b})"),
+        Op::Sin => atom("np.sin({a})"),
+        Op::Cos => atom("np.cos({a})"),
+        Op::Tan => atom("np.tan({a})"),
+        Op::Asin => atom("np.arcsin({a})"),
+        Op::Acos => atom("np.arccos({a})"),
+        Op::Atan => atom("np.arctan({a})"),
+        Op::Atan2 => atom("np.arctan2({a}, {b})"),
+        Op::Tanh => atom("np.tanh({a})"),
+        Op::Lerp => sum("{a+} + {c*}*({b+} - {a*})"),
+        // Of two plain numbers `where` would make doubles.
+        Op::Step => atom("np.float32({b+} >= {a+})"),
+        Op::Select => atom("np.where({a+} < {b+}, {c}, {d})"),
+        Op::Floor => atom("np.floor({a})"),
+        Op::Fract => sum("{a+} - np.floor({a})"),
+        Op::Sign => atom("np.sign({a})"),
+    }
+}
+
+fn non_finite(bits: u32) -> &'static str {
+    match f32::from_bits(bits) {
+        f32::INFINITY => "np.inf",
+        f32::NEG_INFINITY => "-np.inf",
+        _ => "np.nan",
+    }
+}
+
+fn open(_: &Syntax, signature: &Signature, lines: &mut Vec<String>) {
+    let Signature { function, inputs, .. } = signature;
+    lines.extend(["import numpy as np", "", ""].map(str::to_owned));
+    lines.push(format!("def {function}({}):", inputs.join(", ")));
+}
+
+fn close(_: &Syntax, signature: &Signature, lines: &mut Vec<String>) {
+    lines.push(format!("    return {}", signature.outputs.join(", ")));
+}
+
+fn reserved(name: &str) -> bool {
+    is_word(WORDS, name)
+}
+
+const WORDS: &str = "False None True and as assert async await break class continue def del elif \
+    else except finally for from global if import in is lambda nonlocal not or pass raise return \
+    try while with yield np";

@@ -1,0 +1,103 @@
+//! Rust, of `f32`.
+
+use super::syntax::{
+    PARENTHESES, Signature, Spelling, Syntax, WIDTH, atom, decimal, is_word, negation, product,
+    select, sum,
+};
+use crate::op::Op;
+
+pub(super) static SYNTAX: Syntax = Syntax {
+    name: "rust",
+    aliases: &["rs"],
+    extension: "rs",
+    comment: "//",
+    types: &["f32"],
+    spelling,
+    power: None,
+    parentheses: PARENTHESES,
+    width: WIDTH,
+    reserved,
+    written: str::to_owned,
+    literal: decimal,
+    local: |name, value| format!("let {name} = {value};"),
+    non_finite: |name, _, bits| vec![format!("let {name} = {};", non_finite(bits))],
+    open,
+    close,
+    float_of_bits: "",
+};
+
+/// Functions, not methods: `2.0.exp2()` has no type, and `-x.abs()` is not what it seems.
+fn spelling(op: Op) -> Spelling {
+    match op {
+        Op::Add => sum("{a+} + {b*}"),
+        Op::Sub => sum("{a+} - {b*}"),
+        Op::Mul => product("{a*}*{b-}"),
+        Op::Div => product("{a*}/{b-}"),
+        Op::Neg => negation("-{a!}"),
+        Op::Abs => atom("f32::abs({a})"),
+        Op::Min => atom("f32::min({a}, {b})"),
+        Op::Max => atom("f32::max({a}, {b})"),
+        Op::Saturate => atom("f32::clamp({a}, 0.0, 1.0)"),
+        Op::Mad => atom("f32::mul_add({a}, {b}, {c})"),
+        Op::Rcp => product("1.0/{a-}"),
+        Op::Sqrt => atom("f32::sqrt({a})"),
+        Op::Rsqrt => product("1.0/f32::sqrt({a})"),
+        Op::Exp2 => atom("f32::exp2({a})"),
+        Op::Log2 => atom("f32::log2({a})"),
+        Op::Exp => atom("f32::exp({a})"),
+        Op::Log => atom("f32::ln({a})"),
+        Op::Pow => atom("f32::powf({a}, {b})"),
+        Op::Sin => atom("f32::sin({a})"),
+        Op::Cos => atom("f32::cos({a})"),
+        Op::Tan => atom("f32::tan({a})"),
+        Op::Asin => atom("f32::asin({a})"),
+        Op::Acos => atom("f32::acos({a})"),
+        Op::Atan => atom("f32::atan({a})"),
+        Op::Atan2 => atom("f32::atan2({a}, {b})"),
+        Op::Tanh => atom("f32::tanh({a})"),
+        Op::Lerp => atom("f32::mul_add({c}, {b+} - {a*}, {a})"),
+        Op::Step => atom("f32::from({b+} >= {a+})"),
+        Op::Select => select("if {a+} < {b+} { {c} } else { {d} }"),
+        Op::Floor => atom("f32::floor({a})"),
+        Op::Fract => sum("{a+} - f32::floor({a})"),
+        Op::Sign => select("if {a+} == 0.0 { {a} } else { f32::signum({a}) }"),
+    }
+}
+
+fn non_finite(bits: u32) -> &'static str {
+    match f32::from_bits(bits) {
+        f32::INFINITY => "f32::INFINITY",
+        f32::NEG_INFINITY => "f32::NEG_INFINITY",
+        _ => "f32::NAN",
+    }
+}
+
+fn open(_: &Syntax, signature: &Signature, lines: &mut Vec<String>) {
+    let Signature { function, inputs, outputs, .. } = signature;
+    let inputs: Vec<String> = inputs.iter().map(|name| format!("{name}: f32")).collect();
+    let returned = match outputs.len() {
+        1 => "f32".to_owned(),
+        n => format!("({})", vec!["f32"; n].join(", ")),
+    };
+    lines.push(format!("pub fn {function}({}) -> {returned} {{", inputs.join(", ")));
+}
+
+fn close(_: &Syntax, signature: &Signature, lines: &mut Vec<String>) {
+    let values = signature.outputs.join(", ");
+    lines.push(if signature.outputs.len() == 1 {
+        format!("    {values}")
+    } else {
+        format!("    ({values})")
+    });
+    lines.push("}".to_owned());
+}
+
+fn reserved(name: &str) -> bool {
+    name == "_" || is_word(WORDS, name)
+}
+
+/// Keywords, the words reserved for later, and what a pattern would match instead of naming.
+const WORDS: &str = "Self abstract as async await become box break const continue crate do dyn \
+    else enum extern false final fn for gen if impl in let loop macro match mod move mut override \
+    priv pub ref return self static struct super trait true try type typeof union unsafe unsized \
+    use virtual where while yield main f32 None Some Ok Err";

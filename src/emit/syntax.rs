@@ -1,0 +1,184 @@
+//! What tells one language from another, as data.
+
+use crate::op::Op;
+use crate::program::format_constant;
+
+/// A language.
+pub(super) struct Syntax {
+    pub name: &'static str,
+    pub aliases: &'static [&'static str],
+    pub extension: &'static str,
+    /// What begins a comment that ends with its line.
+    pub comment: &'static str,
+    /// The type of a float, and those of vectors as far as there are any.
+    pub types: &'static [&'static str],
+    pub spelling: fn(Op) -> Spelling,
+    /// How `{a}·{a}·…` is written where it has a notation of its own, `{n}` being how many.
+    pub power: Option<&'static str>,
+    pub parentheses: [&'static str; 2],
+    /// No expression is longer in bytes, unless its names are.
+    pub width: usize,
+    /// Whether a name is a keyword, a type, a builtin function, or of a form that may not be
+    /// declared. A plain identifier that ends in `_` or `_2` never is, so that each name can be
+    /// replaced by one like it.
+    pub reserved: fn(&str) -> bool,
+    /// An allowed name as it is written.
+    pub written: fn(&str) -> String,
+    pub literal: fn(f32) -> String,
+    /// The declaration of a local that is never changed.
+    pub local: fn(name: &str, value: &str) -> String,
+    /// The declaration of a local that is infinite or NaN, and perhaps of one for its bits.
+    pub non_finite: fn(name: &str, bits_name: &str, bits: u32) -> Vec<String>,
+    /// Adds the lines above the function's body.
+    pub open: fn(&Syntax, &Signature, &mut Vec<String>),
+    /// Adds the lines that return the outputs and end the function.
+    pub close: fn(&Syntax, &Signature, &mut Vec<String>),
+    /// The function that makes a float of its bits.
+    pub float_of_bits: &'static str,
+}
+
+/// What most languages have in common.
+pub(super) const PARENTHESES: [&str; 2] = ["(", ")"];
+
+/// With the declaration around it a line stays within 100 columns.
+pub(super) const WIDTH: usize = 72;
+
+/// The names of a function's parts, as the language allows them.
+pub(super) struct Signature {
+    pub function: String,
+    pub inputs: Vec<String>,
+    pub outputs: Vec<String>,
+    /// The type and the local that hold more outputs than a vector can.
+    pub structure: String,
+    pub result: String,
+}
+
+/// How tightly a piece of code binds.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub(super) enum Binding {
+    Select,
+    Sum,
+    Product,
+    Negation,
+    Power,
+    Atom,
+}
+
+/// How an operation is written: `{a}`, `{b}`, `{c}`, `{d}` stand for its arguments, and a mark
+/// says how tightly the argument must bind to need no parentheses: none anything, `+` a sum,
+/// `*` a product, `-` a negation, `^` a power, `!` an atom. Other braces are the language's.
+pub(super) struct Spelling {
+    pub template: &'static str,
+    pub binding: Binding,
+}
+
+pub(super) const fn select(template: &'static str) -> Spelling {
+    Spelling { template, binding: Binding::Select }
+}
+
+pub(super) const fn sum(template: &'static str) -> Spelling {
+    Spelling { template, binding: Binding::Sum }
+}
+
+pub(super) const fn product(template: &'static str) -> Spelling {
+    Spelling { template, binding: Binding::Product }
+}
+
+pub(super) const fn negation(template: &'static str) -> Spelling {
+    Spelling { template, binding: Binding::Negation }
+}
+
+pub(super) const fn power(template: &'static str) -> Spelling {
+    Spelling { template, binding: Binding::Power }
+}
+
+pub(super) const fn atom(template: &'static str) -> Spelling {
+    Spelling { template, binding: Binding::Atom }
+}
+
+/// Where an argument stands in a template, and how tightly it must bind there.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) struct Place {
+    pub argument: usize,
+    pub least: Binding,
+}
+
+/// A template's places, each after the text before it, and the text after the last.
+pub(super) fn pieces(template: &str) -> (Vec<(&str, Place)>, &str) {
+    let mut pieces = Vec::new();
+    let (mut start, mut from) = (0, 0);
+    while let Some(brace) = template[from..].find('{').map(|i| from + i) {
+        match place(&template[brace..]) {
+            Some((place, length)) => {
+                pieces.push((&template[start..brace], place));
+                from = brace + length;
+                start = from;
+            }
+            None => from = brace + 1,
+        }
+    }
+    (pieces, &template[start..])
+}
+
+/// The place at the start of the text, and its length.
+pub(super) fn place(text: &str) -> Option<(Place, usize)> {
+    let (name, end) = match text.as_bytes() {
+        [b'{', name @ b'a'..=b'd', b'}', ..] => (*name, 2),
+        [b'{', name @ b'a'..=b'd', _, b'}', ..] => (*name, 3),
+        _ => return None,
+    };
+    let least = match &text[2..end] {
+        "" => Binding::Select,
+        "+" => Binding::Sum,
+        "*" => Binding::Product,
+        "-" => Binding::Negation,
+        "^" => Binding::Power,
+        "!" => Binding::Atom,
+        _ => return None,
+    };
+    Some((Place { argument: usize::from(name - b'a'), least }, end + 1))
+}
+
+/// The shortest decimal that reads back as `value` and that no compiler takes for an integer.
+pub(super) fn decimal(value: f32) -> String {
+    // The shortest decimal of the largest number, …35e38, lies above it: out of range where it
+    // is read in higher precision first, as in WGSL.
+    let text = format_constant(value).replace("3.4028235e38", "3.4028234e38");
+    if text.contains(['.', 'e']) { text } else { text + ".0" }
+}
+
+/// Whether `name` is one of the words of `list`.
+pub(super) fn is_word(list: &str, name: &str) -> bool {
+    list.split_ascii_whitespace().any(|word| word == name)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::emit::Language;
+    use crate::op::MAX_ARITY;
+
+    #[test]
+    fn every_spelling_writes_each_argument() {
+        for language in Language::ALL {
+            for &op in Op::ALL {
+                let template = (language.syntax().spelling)(op).template;
+                let mut arguments: Vec<usize> =
+                    pieces(template).0.iter().map(|(_, place)| place.argument).collect();
+                arguments.sort_unstable();
+                arguments.dedup();
+                assert!(arguments.into_iter().eq(0..op.arity()), "{op} in {language}: {template}");
+            }
+        }
+    }
+
+    #[test]
+    fn braces_around_no_argument_are_text() {
+        let (places, rest) = pieces(r"\frac{{a}}{{b+}} {e} {a.} { d }");
+        let [("\\frac{", a), ("}{", b)] = places[..] else { panic!("{places:?}") };
+        assert_eq!(a, Place { argument: 0, least: Binding::Select });
+        assert_eq!(b, Place { argument: 1, least: Binding::Sum });
+        assert_eq!(rest, "} {e} {a.} { d }");
+        assert_eq!(MAX_ARITY, ["a", "b", "c", "d"].len());
+    }
+}

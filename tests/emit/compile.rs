@@ -1,0 +1,167 @@
+//! Real compilers take what is emitted.
+
+use crate::programs::{SAMPLES, names, nasty_columns, programs, programs_of};
+use crate::{bits, text, tools};
+use lgp::emit::{Language, read_back};
+use lgp::op::Op;
+use lgp::program::{Names, Program, parse};
+use proptest::prelude::*;
+use proptest::strategy::ValueTree;
+use proptest::test_runner::TestRunner;
+
+/// What compilers are given: every operation, every constant hazard, nasty names, and programs
+/// drawn at random, each under a function name of its own.
+fn samples_to_compile(language: Language) -> Vec<String> {
+    let mut codes = Vec::new();
+    let mut add = |program: &Program, names: &Names| {
+        let function = format!("f{}", codes.len());
+        codes.push(text(language, program, names, &function, &["C:\\".to_owned()]));
+    };
+    let four = Names::new(["x", "y", "z", "w"], ["f"]);
+    for program in Op::ALL.iter().flat_map(|&op| programs_of(op)) {
+        add(&program, &four);
+    }
+    let (program, columns) = nasty_columns();
+    add(&program, &columns);
+    let cosine = parse("y = cos(x)", &Names::new(["x"], ["y"])).unwrap();
+    for name in columns.inputs {
+        add(&cosine, &Names::new([name.as_str()], [name.as_str()]));
+    }
+    let mut runner = TestRunner::deterministic();
+    for _ in 0..250 {
+        let program = programs().new_tree(&mut runner).unwrap().current();
+        add(&program, &names(&program));
+    }
+    codes
+}
+
+#[test]
+fn naga_takes_the_wgsl() {
+    for code in samples_to_compile(Language::Wgsl) {
+        validated(&code);
+    }
+}
+
+pub fn validated(code: &str) -> (naga::Module, naga::valid::ModuleInfo) {
+    let module = naga::front::wgsl::parse_str(code)
+        .unwrap_or_else(|e| panic!("{code}\n{}", e.emit_to_string(code)));
+    let mut validator = naga::valid::Validator::new(
+        naga::valid::ValidationFlags::all(),
+        naga::valid::Capabilities::empty(),
+    );
+    let info = validator.validate(&module).unwrap_or_else(|e| panic!("{code}\n{e:?}"));
+    (module, info)
+}
+
+/// There is no Metal compiler to ask: naga's translation of our WGSL is the witness for our MSL.
+#[test]
+fn the_msl_computes_what_naga_makes_of_the_wgsl() {
+    let (wgsl, msl) = (samples_to_compile(Language::Wgsl), samples_to_compile(Language::Msl));
+    let mut compared = 0;
+    for (wgsl, ours) in wgsl.iter().zip(&msl) {
+        // Bits of what is not finite: naga writes them in decimal, which the reader does not know.
+        if wgsl.contains("bitcast") {
+            continue;
+        }
+        let (module, info) = validated(wgsl);
+        let (options, pipeline) = Default::default();
+        let (theirs, _) =
+            naga::back::msl::write_string(&module, &info, &options, &pipeline).unwrap();
+        let theirs = as_we_write(&theirs);
+        let (expected, _) =
+            read_back(Language::Msl, &theirs).unwrap_or_else(|e| panic!("{theirs}{e}"));
+        let (found, _) = read_back(Language::Msl, ours).unwrap();
+        for sample in SAMPLES {
+            // Nasty columns are more than a sample has.
+            let inputs: Vec<f32> = sample.iter().cycle().copied().take(found.inputs).collect();
+            let (found, expected) = (found.evaluate(&inputs), expected.evaluate(&inputs));
+            assert_eq!(bits(&found), bits(&expected), "{ours}\n{theirs}");
+        }
+        compared += 1;
+    }
+    assert!(compared > 300, "{compared}");
+}
+
+/// naga's MSL without its preamble and namespace, its structures made by a constructor, and what
+/// it knows of comparisons of constants as such comparisons.
+fn as_we_write(msl: &str) -> String {
+    let lines = msl.lines().filter(|line| !line.starts_with(['#', '/']) && !line.contains("using"));
+    let code = lines.collect::<Vec<_>>().join("\n").replace("metal::", "");
+    let code = code.replace("false ?", "1.0 < 0.0 ?").replace("true ?", "0.0 < 1.0 ?");
+    match code.split_once("return ").and_then(|(before, value)| {
+        let (name, values) = value.split_once(" {")?;
+        let (values, after) = values.split_once("};")?;
+        Some(format!("{before}return {name}({values});{after}"))
+    }) {
+        Some(code) => code,
+        None => code,
+    }
+}
+
+const MAIN_OF_GLSL: &str =
+    "out vec4 color;\nvoid main() { color = vec4(f0_f(1.0, 2.0, 3.0, 4.0)); }\n";
+
+const MAIN_OF_HLSL: &str = "float4 main(float4 p : TEXCOORD0) : SV_Target {\n\
+    return f0_f(p.x, p.y, p.z, p.w);\n}\n";
+
+#[test]
+fn glslang_takes_the_glsl_and_the_hlsl() {
+    if !tools::found(&["glslangValidator", "--version"], "HLSL and GLSL were not compiled") {
+        return;
+    }
+    let glsl = samples_to_compile(Language::Glsl).join("\n");
+    let hlsl = samples_to_compile(Language::Hlsl).join("\n");
+    let es = format!("#version 300 es\nprecision highp float;\n{glsl}\n{MAIN_OF_GLSL}");
+    let desktop = format!("#version 450\n{glsl}\n{MAIN_OF_GLSL}");
+    compiled("es.frag", &es, &["glslangValidator"]);
+    compiled("desktop.frag", &desktop, &["glslangValidator"]);
+    let command = ["glslangValidator", "-D", "-V", "-e", "main", "-S", "frag"];
+    compiled("pixel.hlsl", &format!("{hlsl}\n{MAIN_OF_HLSL}"), &command);
+}
+
+#[test]
+fn a_compiler_takes_the_c() {
+    if tools::found(&["cc", "--version"], "C was not compiled") {
+        let code = samples_to_compile(Language::C).join("\n");
+        let command =
+            ["cc", "-std=c99", "-Wall", "-Wextra", "-Wno-unused-parameter", "-Werror", "-c"];
+        compiled("snippets.c", &code, &command);
+    }
+}
+
+#[test]
+fn a_compiler_takes_the_c_as_cpp() {
+    if tools::found(&["c++", "--version"], "C was not compiled as C++") {
+        let code = samples_to_compile(Language::C).join("\n");
+        compiled(
+            "snippets.cpp",
+            &code,
+            &["c++", "-std=c++11", "-Wall", "-Wextra", "-Wno-unused-parameter", "-c"],
+        );
+    }
+}
+
+#[test]
+fn a_compiler_takes_the_rust() {
+    if tools::found(&["rustc", "--version"], "Rust was not compiled") {
+        let code = samples_to_compile(Language::Rust).join("\n");
+        let allowed = "#![deny(warnings)]\n#![allow(nonstandard_style, unused_variables)]\n";
+        let command = ["rustc", "--edition", "2024", "--crate-type", "lib", "--emit", "metadata"];
+        compiled("snippets.rs", &format!("{allowed}{code}"), &command);
+    }
+}
+
+#[test]
+fn an_interpreter_takes_the_python() {
+    if tools::found(&["python3", "--version"], "Python was not compiled") {
+        let code = samples_to_compile(Language::Python).join("\n");
+        compiled("snippets.py", &code, &["python3", "-W", "error", "-m", "py_compile"]);
+    }
+}
+
+/// Writes the file and gives its name to the command.
+fn compiled(file: &str, source: &str, command: &[&str]) {
+    let folder = tempfile::tempdir().unwrap();
+    std::fs::write(folder.path().join(file), source).unwrap();
+    tools::run(folder.path(), &[command, &[file]].concat());
+}

@@ -1,0 +1,112 @@
+//! Emitted code: what it looks like, that it means what the program means, that real compilers
+//! take it, and that it computes what the interpreter computes.
+
+mod agreement;
+mod compile;
+mod hosts;
+mod programs;
+mod read_back;
+mod tools;
+
+use lgp::emit::{Language, Snippet, emit, read_back};
+use lgp::op::Op;
+use lgp::program::{Names, Program, parse};
+use programs::EVERY_OPERATION;
+
+const PAPER: &str = "bias = exp2(-(7*n_dot_v + 4*roughness^2)); \
+    scale = 1 - bias - roughness^2*max(bias, min(roughness, .739 + .323*n_dot_v) - .434)";
+
+fn text(
+    language: Language,
+    program: &Program,
+    names: &Names,
+    function: &str,
+    header: &[String],
+) -> String {
+    emit(language, &Snippet { program, names, function, header })
+}
+
+fn bits(values: &[f32]) -> Vec<Option<u32>> {
+    values.iter().map(|v| (!v.is_nan()).then(|| v.to_bits())).collect()
+}
+
+fn in_every_language(program: &Program, names: &Names, header: &[&str]) -> String {
+    let header: Vec<String> = header.iter().map(|line| (*line).to_owned()).collect();
+    let texts = Language::ALL.iter().map(|&l| text(l, program, names, "dfg", &header));
+    texts.collect::<Vec<_>>().join("\n")
+}
+
+#[test]
+fn the_papers_formula_in_every_language() {
+    let names = Names::new(["n_dot_v", "roughness"], ["scale", "bias"]);
+    let program = parse(PAPER, &names).unwrap();
+    insta::assert_snapshot!(in_every_language(&program, &names, &["Pesce & Iwanicki 2015"]));
+}
+
+#[test]
+fn one_output_is_a_float() {
+    let names = Names::new(["n_dot_v", "roughness"], ["bias"]);
+    let program = parse("bias = exp2(-(7*n_dot_v + 4*roughness^2))", &names).unwrap();
+    insta::assert_snapshot!(in_every_language(&program, &names, &[]));
+}
+
+#[test]
+fn every_operation_in_every_language() {
+    let names = Names::new(["x", "y"], ["a", "b", "c", "d"]);
+    let program = parse(EVERY_OPERATION, &names).unwrap();
+    for op in Op::ALL {
+        let found = program.instrs.iter().any(|instr| instr.op() == *op);
+        assert!(found, "{op} is missing");
+    }
+    insta::assert_snapshot!(in_every_language(&program, &names, &[]));
+}
+
+#[test]
+fn columns_called_like_keywords_are_renamed() {
+    let names = Names::new(["cos", "lambda", "half"], ["out", "sample"]);
+    let program = parse("out = cos(cos)*lambda; sample = out + half", &names).unwrap();
+    insta::assert_snapshot!(in_every_language(&program, &names, &[]));
+}
+
+#[test]
+fn more_outputs_than_a_vector_holds_are_a_structure() {
+    let names = Names::new(["x"], ["a", "b", "c", "d", "result"]);
+    let program = parse("a = x; b = 1; c = x + 1; d = c; result = c*c", &names).unwrap();
+    insta::assert_snapshot!(in_every_language(&program, &names, &[]));
+}
+
+#[test]
+fn constants_that_are_not_finite_are_written_as_bits() {
+    let names = Names::new(["x"], ["y"]);
+    let program =
+        parse("y = max(x, 1/0) + log2(0)*x - 1/0 + (0/0 - 3.4028235e38*x) + 1e-45", &names);
+    insta::assert_snapshot!(in_every_language(&program.unwrap(), &names, &[]));
+}
+
+#[test]
+fn a_header_cannot_leave_its_comment() {
+    let names = Names::new(["x"], ["y"]);
+    let program = parse("y = x", &names).unwrap();
+    let nasty = ["a\nb\r\nc\rd", "e\u{85}f\u{2028}g\u{b}h", "C:\\", "C:\\ \\  ", "", "\n", "*/ \0"];
+    let header = nasty.map(str::to_owned);
+    for &language in Language::SHADING {
+        let code = text(language, &program, &names, "f", &header);
+        let (comments, function) = code.split_at(code.find("f_y").unwrap());
+        let comments = &comments[..comments.rfind('\n').unwrap()];
+        for line in comments.split(['\n', '\r', '\u{85}', '\u{2028}', '\u{b}', '\0']) {
+            assert!(line.starts_with("//") && !line.ends_with(['\\', ' ']), "{line:?}");
+        }
+        assert_eq!(function.lines().count(), 4);
+        assert!(read_back(language, &code).is_ok());
+    }
+}
+
+#[test]
+fn languages_have_names() {
+    for &language in Language::ALL {
+        assert_eq!(Language::from_name(language.name()), Ok(language));
+    }
+    assert_eq!(Language::from_name("WebGPU"), Ok(Language::Wgsl));
+    let message = Language::from_name("hsl").unwrap_err().to_string();
+    assert!(message.contains("did you mean `hlsl`?") && message.contains("wgsl"), "{message}");
+}
