@@ -4,9 +4,12 @@
 mod agreement;
 mod compile;
 mod hosts;
+mod lavapipe;
 mod programs;
 mod read_back;
 mod tools;
+#[path = "../vulkan/mod.rs"]
+mod vulkan;
 
 use lgp::emit::{Language, Snippet, emit, read_back};
 use lgp::op::Op;

@@ -1,0 +1,183 @@
+//! WGSL, GLSL and HLSL: run on Mesa's software Vulkan, and compared with the interpreter.
+
+use crate::agreement::{Case, OF_FORMULAS, Tolerance, front, operations};
+use crate::compile::validated;
+use crate::vulkan::Gpu;
+use crate::{text, tools};
+use lgp::emit::Language;
+use lgp::op::Op;
+use std::collections::BTreeMap;
+
+#[test]
+fn wgsl_computes_what_the_interpreter_computes() {
+    agree(Language::Wgsl);
+}
+
+#[test]
+fn glsl_computes_what_the_interpreter_computes() {
+    agree(Language::Glsl);
+}
+
+#[test]
+fn hlsl_computes_what_the_interpreter_computes() {
+    agree(Language::Hlsl);
+}
+
+fn agree(language: Language) {
+    let untested = format!("{language} was not run");
+    let gpu = match Gpu::open("llvmpipe") {
+        Ok(gpu) => gpu,
+        Err(reason) => return tools::skipped(&format!("{reason}; {untested}")),
+    };
+    let compiler = ["glslangValidator", "--version"];
+    if language != Language::Wgsl && !tools::found(&compiler, &untested) {
+        return;
+    }
+    let (operations, front) = (operations(), front());
+    let mut worst: BTreeMap<Op, f32> = BTreeMap::new();
+    for (case, found) in operations.iter().zip(outputs(&gpu, language, &operations)) {
+        let op = case.op.unwrap();
+        let apart = case.compare(&found, tolerance(op));
+        worst.entry(op).and_modify(|worst| *worst = worst.max(apart)).or_insert(apart);
+    }
+    for (op, worst) in worst {
+        println!("{language}, {op}: {worst:.1e} apart at most");
+    }
+    for (case, found) in front.iter().zip(outputs(&gpu, language, &front)) {
+        let apart = case.compare(&found, OF_FORMULAS);
+        println!("{language}, {}: {apart:.1e} apart at most", case.title);
+    }
+}
+
+/// What Vulkan demands of single precision ("Precision of Individual Operations"), an ulp being
+/// up to 1.2e-7 of a value; functions that it derives from others, on ordinary arguments.
+fn tolerance(op: Op) -> Tolerance {
+    let [absolute, relative] = match op {
+        Op::Neg | Op::Abs | Op::Min | Op::Max | Op::Saturate | Op::Step | Op::Select => [0.0, 0.0],
+        Op::Floor | Op::Fract | Op::Sign => [0.0, 0.0],
+        Op::Add | Op::Sub | Op::Mul => [0.0, 0.0],
+        // A product and a sum; x·(1 − a) + y·a: of terms up to 64 that may cancel.
+        Op::Mad | Op::Lerp => [1e-5, 0.0],
+        // 2.5 ulp; 2; and of the one by the other.
+        Op::Div | Op::Rcp => [0.0, 3e-7],
+        Op::Rsqrt => [0.0, 2.4e-7],
+        Op::Sqrt => [0.0, 5.4e-7],
+        // 3 + 2 |x| ulp, |x| up to 8.
+        Op::Exp2 | Op::Exp => [0.0, 2.3e-6],
+        // 2^-21 between ½ and 2, 3 ulp elsewhere.
+        Op::Log2 | Op::Log => [4.8e-7, 3.6e-7],
+        // exp2(y·log2 x), |y·log2 x| up to 24: 4 ulp of it in the exponent, and 51.
+        Op::Pow => [0.0, 1.5e-5],
+        Op::Sin | Op::Cos => [4.9e-4, 0.0],
+        // Of the sine by the cosine, which is .26 at least.
+        Op::Tan => [0.0, 4e-3],
+        // 4096 ulp.
+        Op::Asin | Op::Acos | Op::Atan | Op::Atan2 => [4.9e-4, 4.9e-4],
+        // A difference of exponentials by their sum.
+        Op::Tanh => [1e-6, 5e-6],
+    };
+    Tolerance { absolute, relative }
+}
+
+const GROUP: usize = 64;
+
+/// All cases in one shader: the outputs of each.
+fn outputs(gpu: &Gpu, language: Language, cases: &[Case]) -> Vec<Vec<Vec<f32>>> {
+    let input: Vec<f32> = cases.iter().flat_map(|case| case.inputs.concat()).collect();
+    let rows = cases[0].rows();
+    let columns: usize = cases.iter().map(|case| case.expected.len()).sum();
+    let spirv = compiled(language, &source(language, cases));
+    let groups = rows.div_ceil(GROUP) as u32;
+    let ran = gpu.run(&spirv, &input, rows * columns, groups).unwrap();
+    let mut found = ran.output.chunks_exact(rows).map(<[f32]>::to_vec);
+    cases.iter().map(|case| found.by_ref().take(case.expected.len()).collect()).collect()
+}
+
+fn source(language: Language, cases: &[Case]) -> String {
+    let (mut functions, mut calls) = (String::new(), String::new());
+    let (mut input, mut output) = (0, 0);
+    for case in cases {
+        assert_eq!(case.rows(), cases[0].rows());
+        functions += &text(language, &case.program, &case.names, &case.function, &[]);
+        calls += &call(language, case, input, output);
+        input += case.inputs.len() * case.rows();
+        output += case.expected.len() * case.rows();
+    }
+    let (before, after) = main_of(language, cases[0].rows());
+    functions + &before + &calls + after
+}
+
+/// The case's outputs at the row `i`.
+fn call(language: Language, case: &Case, input: usize, output: usize) -> String {
+    let rows = case.rows();
+    let arguments: Vec<String> =
+        (0..case.inputs.len()).map(|c| format!("columns[{}u + i]", input + c * rows)).collect();
+    let (function, count) = match case.names.outputs.as_slice() {
+        [output] => (format!("{}_{output}", case.function), 1),
+        outputs => (case.function.clone(), outputs.len()),
+    };
+    let declared = match (language, count) {
+        (Language::Wgsl, _) => "let".to_owned(),
+        (_, 1) => "float".to_owned(),
+        (Language::Glsl, n) => format!("vec{n}"),
+        (_, n) => format!("float{n}"),
+    };
+    let mut code = format!("        {{ {declared} y = {function}({});", arguments.join(", "));
+    for (o, component) in ["x", "y", "z", "w"].into_iter().take(count).enumerate() {
+        let value = if count == 1 { "y".to_owned() } else { format!("y.{component}") };
+        code += &format!(" results[{}u + i] = {value};", output + o * rows);
+    }
+    code + " }\n"
+}
+
+/// What stands before the calls and after.
+fn main_of(language: Language, rows: usize) -> (String, &'static str) {
+    let before = match language {
+        Language::Wgsl => format!(
+            "@group(0) @binding(0) var<storage, read> columns: array<f32>;
+@group(0) @binding(1) var<storage, read_write> results: array<f32>;
+@compute @workgroup_size({GROUP})
+fn main(@builtin(global_invocation_id) id: vec3<u32>) {{
+    let i = id.x;
+    if (i < {rows}u) {{\n"
+        ),
+        Language::Glsl => format!(
+            "layout(local_size_x = {GROUP}) in;
+layout(std430, binding = 0) readonly buffer Columns {{ float columns[]; }};
+layout(std430, binding = 1) buffer Results {{ float results[]; }};
+void main() {{
+    uint i = gl_GlobalInvocationID.x;
+    if (i < {rows}u) {{\n"
+        ),
+        _ => format!(
+            "[[vk::binding(0)]] StructuredBuffer<float> columns;
+[[vk::binding(1)]] RWStructuredBuffer<float> results;
+[numthreads({GROUP}, 1, 1)]
+void main(uint3 id : SV_DispatchThreadID) {{
+    uint i = id.x;
+    if (i < {rows}u) {{\n"
+        ),
+    };
+    (before, "    }\n}\n")
+}
+
+fn compiled(language: Language, source: &str) -> Vec<u32> {
+    match language {
+        Language::Wgsl => {
+            let (module, info) = validated(source);
+            let options = naga::back::spv::Options::default();
+            naga::back::spv::write_vec(&module, &info, &options, None).unwrap()
+        }
+        Language::Glsl => glslang("main.comp", &format!("#version 450\n{source}"), &[]),
+        _ => glslang("main.hlsl", source, &["-D", "-e", "main", "-S", "comp"]),
+    }
+}
+
+fn glslang(file: &str, source: &str, options: &[&str]) -> Vec<u32> {
+    let folder = tempfile::tempdir().unwrap();
+    std::fs::write(folder.path().join(file), source).unwrap();
+    let command = ["glslangValidator", "-V", "--target-env", "vulkan1.2", "-o", "main.spv"];
+    tools::run(folder.path(), &[&command, options, &[file]].concat());
+    let bytes = std::fs::read(folder.path().join("main.spv")).unwrap();
+    bytes.chunks_exact(4).map(|b| u32::from_le_bytes(b.try_into().unwrap())).collect()
+}
