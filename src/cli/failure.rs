@@ -1,5 +1,5 @@
 use crate::grammar::FileError;
-use crate::search::RecordError;
+use crate::search::{Incompatible, RecordError};
 use crate::{dataset, program, targets};
 use std::io::Write;
 use std::path::Path;
@@ -102,6 +102,12 @@ impl From<RecordError> for Failure {
 
 impl From<program::ParseError> for Failure {
     fn from(error: program::ParseError) -> Failure {
+        Failure::new(Exit::Input, error)
+    }
+}
+
+impl From<Incompatible> for Failure {
+    fn from(error: Incompatible) -> Failure {
         Failure::new(Exit::Input, error)
     }
 }

@@ -21,7 +21,7 @@ pub fn run(args: &Args, common: &Common) -> Result<(), Failure> {
 }
 
 /// The incumbents, if the dataset is still where the run found it.
-fn incumbents(run: &Run) -> Option<Vec<Published>> {
+pub(super) fn incumbents(run: &Run) -> Option<Vec<Published>> {
     let whole = Dataset::load(&run.dataset).ok().filter(|data| data.hash() == run.dataset_hash)?;
     let names = run.names();
     let dataset = whole.select(Some(&names.inputs), Some(&names.outputs)).ok()?;

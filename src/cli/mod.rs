@@ -1,5 +1,6 @@
 //! The command line. One file a subcommand, each with its `Args` and a `run`.
 
+mod analyze;
 mod columns;
 mod duration;
 mod emit;
@@ -11,6 +12,7 @@ mod import;
 mod info;
 mod inventory;
 mod list;
+mod merge;
 mod output;
 mod run_folder;
 mod search;
@@ -61,6 +63,8 @@ enum Command {
     Front(front::Args),
     Emit(emit::Args),
     Eval(eval::Args),
+    Analyze(analyze::Args),
+    Merge(merge::Args),
     Generate(generate::Args),
     Import(import::Args),
     Info(info::Args),
@@ -74,6 +78,8 @@ impl Command {
             Command::Front(args) => front::run(args, common),
             Command::Emit(args) => emit::run(args, common),
             Command::Eval(args) => eval::run(args, common),
+            Command::Analyze(args) => analyze::run(args, common),
+            Command::Merge(args) => merge::run(args, common),
             Command::Generate(args) => generate::run(args, common),
             Command::Import(args) => import::run(args, common),
             Command::Info(args) => info::run(args, common),

@@ -6,7 +6,8 @@ use crate::emit::{self, Language, Snippet};
 use crate::eval::OutputError;
 use crate::report::plot::{self, FrontPlot, PlotError, Theme};
 use crate::report::table::{Published, error_text, front_table};
-use crate::search::{Front, FrontMember, Run, Search, TracePoint, trace_csv};
+use crate::search::{Census, Front, FrontMember, Run, Search, TracePoint, trace_csv};
+use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 
@@ -29,18 +30,21 @@ pub struct PartialRun {
     trace: Vec<TracePoint>,
     /// The lines of the run that this one goes on with.
     earlier_trace: String,
+    census: Census,
     last_checkpoint: Instant,
 }
 
 impl PartialRun {
-    pub fn new(folder: &Path, resumed: bool) -> PartialRun {
+    pub fn new(folder: &Path, resumed: bool) -> Result<PartialRun, Failure> {
         let earlier = resumed.then(|| std::fs::read_to_string(folder.join("trace.csv")).ok());
-        PartialRun {
+        let census = if resumed { Census::load(folder)? } else { None };
+        Ok(PartialRun {
             folder: folder.to_owned(),
             trace: Vec::new(),
             earlier_trace: earlier.flatten().unwrap_or_default(),
+            census: census.unwrap_or_default(),
             last_checkpoint: Instant::now(),
-        }
+        })
     }
 
     /// Notes a generation; checkpoints now and then.
@@ -53,6 +57,10 @@ impl PartialRun {
         // Later on little changes: points a twentieth apart are enough.
         let enough = self.trace.last().is_none_or(|last| point.seconds >= last.seconds * 1.05);
         if enough {
+            let names = dataset.names();
+            for member in search.archive().members() {
+                self.census.count(&member.draft, &names, point.seconds);
+            }
             self.trace.push(point);
         }
         if self.last_checkpoint.elapsed() >= CHECKPOINT_INTERVAL {
@@ -71,62 +79,74 @@ impl PartialRun {
         search: &Search,
         dataset: &Dataset,
     ) -> Result<(), Failure> {
-        let names = run.names();
         let trace = trace_csv(&self.trace);
         let trace = match self.earlier_trace.is_empty() {
             true => trace,
             false => self.earlier_trace.clone() + trace.split_once('\n').map_or("", |(_, t)| t),
         };
-        self.write("front.json", front.to_json(&names).as_bytes())?;
-        self.write("trace.csv", trace.as_bytes())?;
-        self.write("front.txt", front_table(front, incumbents, &names.outputs).as_bytes())?;
-        self.write_plots(run, front, incumbents)?;
-        let snippets = self.folder.join("snippets");
-        let _ = std::fs::remove_dir_all(&snippets);
-        create(&snippets)?;
-        for (i, member) in front.members.iter().enumerate() {
-            for &language in Language::ALL {
-                let file = format!("snippets/{:02}.{}", i + 1, language.extension());
-                self.write(&file, snippet(run, member, language).as_bytes())?;
-            }
-        }
+        write(&self.folder, "trace.csv", trace.as_bytes())?;
+        self.census.save(&self.folder)?;
+        write_front(&self.folder, run, front, incumbents)?;
         search.save(&self.folder, dataset)?;
         Ok(run.save(&self.folder)?)
     }
+}
 
-    fn write_plots(
-        &self,
-        run: &Run,
-        front: &Front,
-        incumbents: &[Published],
-    ) -> Result<(), Failure> {
-        let point = |member: &FrontMember| (member.cost, member.search_error().rmse);
-        let front: Vec<_> = front.members.iter().map(point).collect();
-        let incumbents: Vec<_> = incumbents
-            .iter()
-            .map(|known| (known.name.clone(), known.member.cost, known.member.search_error().rmse))
-            .collect();
-        let names = run.names();
-        let plot = FrontPlot {
-            title: &format!("{}: {}", run.name, names.outputs.join(", ")),
-            subtitle: &format!("{} · seed {}", domains(&run.inputs), run.settings.seed),
-            x_label: &format!("GPU cycles ({})", run.gpu),
-            y_label: "RMSE on the search split",
-            front: &front,
-            incumbents: &incumbents,
-            theme: Theme::Light,
-        };
-        let failed = |error: PlotError| Failure::new(Exit::Failed, error);
-        self.write("front.svg", plot::svg(&plot).map_err(failed)?.as_bytes())?;
-        self.write("front.png", &plot::png(&plot, PLOT_WIDTH).map_err(failed)?)?;
-        let dark = FrontPlot { theme: Theme::Dark, ..plot };
-        self.write("front-dark.svg", plot::svg(&dark).map_err(failed)?.as_bytes())
+/// Writes a front as text, pictures and snippets.
+pub fn write_front(
+    folder: &Path,
+    run: &Run,
+    front: &Front,
+    incumbents: &[Published],
+) -> Result<(), Failure> {
+    let names = run.names();
+    write(folder, "front.json", front.to_json(&names).as_bytes())?;
+    write(folder, "front.txt", front_table(front, incumbents, &names.outputs).as_bytes())?;
+    write_plots(folder, run, front, incumbents)?;
+    let snippets = folder.join("snippets");
+    let _ = std::fs::remove_dir_all(&snippets);
+    create(&snippets)?;
+    for (i, member) in front.members.iter().enumerate() {
+        for &language in Language::ALL {
+            let file = format!("snippets/{:02}.{}", i + 1, language.extension());
+            write(folder, &file, snippet(run, member, language).as_bytes())?;
+        }
     }
+    Ok(())
+}
 
-    fn write(&self, name: &str, bytes: &[u8]) -> Result<(), Failure> {
-        let path = self.folder.join(name);
-        replace_file(&path, bytes).map_err(|error| Failure::unwritable(&path, error))
-    }
+fn write_plots(
+    folder: &Path,
+    run: &Run,
+    front: &Front,
+    incumbents: &[Published],
+) -> Result<(), Failure> {
+    let point = |member: &FrontMember| (member.cost, member.search_error().rmse);
+    let front: Vec<_> = front.members.iter().map(point).collect();
+    let incumbents: Vec<_> = incumbents
+        .iter()
+        .map(|known| (known.name.clone(), known.member.cost, known.member.search_error().rmse))
+        .collect();
+    let names = run.names();
+    let plot = FrontPlot {
+        title: &format!("{}: {}", run.name, names.outputs.join(", ")),
+        subtitle: &format!("{} · {}", domains(&run.inputs), seeds(run)),
+        x_label: &format!("GPU cycles ({})", run.gpu),
+        y_label: "RMSE on the search split",
+        front: &front,
+        incumbents: &incumbents,
+        theme: Theme::Light,
+    };
+    let failed = |error: PlotError| Failure::new(Exit::Failed, error);
+    write(folder, "front.svg", plot::svg(&plot).map_err(failed)?.as_bytes())?;
+    write(folder, "front.png", &plot::png(&plot, PLOT_WIDTH).map_err(failed)?)?;
+    let dark = FrontPlot { theme: Theme::Dark, ..plot };
+    write(folder, "front-dark.svg", plot::svg(&dark).map_err(failed)?.as_bytes())
+}
+
+fn write(folder: &Path, name: &str, bytes: &[u8]) -> Result<(), Failure> {
+    let path = folder.join(name);
+    replace_file(&path, bytes).map_err(|error| Failure::unwritable(&path, error))
 }
 
 /// A member as a function ready to paste.
@@ -135,10 +155,7 @@ pub fn snippet(run: &Run, member: &FrontMember, language: Language) -> String {
     let (search, validation) = (member.search_error(), member.validation_error());
     let mut header = vec![
         format!("{} → {}", names.inputs.join(", "), names.outputs.join(", ")),
-        format!(
-            "data: {} ({}), seed {}, lgp {}",
-            run.name, run.dataset_hash, run.settings.seed, run.version
-        ),
+        format!("data: {} ({}), {}, lgp {}", run.name, run.dataset_hash, seeds(run), run.version),
         format!("domain: {}", domains(&run.inputs)),
         format!("cost: {} cycles on {}", member.cost, run.gpu),
         format!("error: {} on the search split", described(search)),
@@ -155,6 +172,16 @@ pub fn snippet(run: &Run, member: &FrontMember, language: Language) -> String {
         language,
         &Snippet { program: &member.program, names: &names, function: &run.name, header: &header },
     )
+}
+
+/// The seed of a search, or those of a union.
+fn seeds(run: &Run) -> String {
+    if run.sources.is_empty() {
+        return format!("seed {}", run.settings.seed);
+    }
+    let seeds: BTreeSet<u64> = run.sources.iter().map(|source| source.settings.seed).collect();
+    let seeds: Vec<String> = seeds.iter().map(u64::to_string).collect();
+    format!("{} {}", if seeds.len() == 1 { "seed" } else { "seeds" }, seeds.join(", "))
 }
 
 fn described(error: OutputError) -> String {

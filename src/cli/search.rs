@@ -85,7 +85,7 @@ pub fn run(args: &Args, common: &Common) -> Result<(), Failure> {
     if !args.resume {
         search.settle(&guesses, &problem);
     }
-    let mut partial = PartialRun::new(&folder, args.resume);
+    let mut partial = PartialRun::new(&folder, args.resume)?;
     let interrupted = watch_for_interrupts();
     let seconds = evolve(args, common, &mut search, &problem, &mut partial, before, &interrupted)?;
     let front = Front::of(&search, &problem);
@@ -105,6 +105,7 @@ pub fn run(args: &Args, common: &Common) -> Result<(), Failure> {
         generations: search.generation(),
         seconds,
         counts: search.counts(),
+        sources: Vec::new(),
     };
     partial.finish(&run, &front, &incumbents, &search, &dataset)?;
     show(common, &run, &front, &incumbents, &folder)?;
@@ -148,6 +149,13 @@ fn resumed(
     args: &Args,
 ) -> Result<(Search, f64), Failure> {
     let run = Run::load(folder)?;
+    if !run.sources.is_empty() {
+        let message = format!(
+            "{}: a union of runs cannot be resumed; start a search with its formulas as --guess",
+            folder.display()
+        );
+        return Err(Failure::new(Exit::Input, anyhow::Error::msg(message)));
+    }
     let search = Search::load(folder, dataset)?;
     let same = (&run.grammar, &run.gpu, search.settings()) == (&args.grammar, &args.gpu, settings);
     if !same {

@@ -13,7 +13,7 @@ pub use effective::{effective, effective_into, use_counts};
 pub use hash::{Constants, structural_hash};
 pub use text::{
     FreeConstant, Names, ParseError, Parsed, Scope, format_constant, parse, parse_open,
-    parse_template, print,
+    parse_template, print, print_expression,
 };
 
 use crate::op::{MAX_ARITY, Op};

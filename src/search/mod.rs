@@ -4,13 +4,17 @@
 //! own (seed, island, generation); archives are merged and migrants exchanged only between
 //! generations, in the islands' order. So the number of threads changes nothing but the time.
 
+mod census;
 mod front;
 mod island;
+mod merge;
 mod population;
 mod record;
 mod vary;
 
+pub use census::{Census, Recurring};
 pub use front::{Front, FrontMember};
+pub use merge::{Incompatible, merge};
 pub use record::{MemberRecord, RecordError, Run, TRACE_COSTS, TracePoint, trace_csv};
 
 use crate::archive::Archive;

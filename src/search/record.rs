@@ -31,6 +31,9 @@ pub struct Run {
     pub generations: u64,
     pub seconds: f64,
     pub counts: Counts,
+    /// The runs that this is the union of; none for a search.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub sources: Vec<Run>,
 }
 
 /// A run's folder that cannot be read or written.
@@ -238,12 +241,12 @@ pub fn trace_csv(points: &[TracePoint]) -> String {
     text
 }
 
-fn read(path: &Path) -> Result<String, RecordError> {
+pub(super) fn read(path: &Path) -> Result<String, RecordError> {
     std::fs::read_to_string(path)
         .map_err(|reason| RecordError::Unreadable { path: path.into(), reason })
 }
 
-fn write(path: &Path, bytes: &[u8]) -> Result<(), RecordError> {
+pub(super) fn write(path: &Path, bytes: &[u8]) -> Result<(), RecordError> {
     replace_file(path, bytes)
         .map_err(|reason| RecordError::Unwritable { path: path.into(), reason })
 }

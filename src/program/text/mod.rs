@@ -13,7 +13,7 @@ mod parse;
 mod print;
 
 pub use parse::{FreeConstant, ParseError, Parsed, Scope, parse, parse_open, parse_template};
-pub use print::{format_constant, print};
+pub use print::{format_constant, print, print_expression};
 
 use serde::{Deserialize, Serialize};
 

@@ -39,6 +39,27 @@ pub fn print(program: &Program, names: &Names) -> String {
     printer.statements.join("; ")
 }
 
+/// The expression of a program's first output, without temporaries: what is shared is written out
+/// as often as it is read, so the text can be exponentially longer than the program.
+///
+/// # Panics
+/// If `names` does not have a name for each input.
+pub fn print_expression(program: &Program, names: &Names) -> String {
+    assert_eq!(names.inputs.len(), program.inputs, "a name for each input");
+    let mut printer = Printer {
+        program,
+        names,
+        texts: Vec::with_capacity(program.instrs.len()),
+        statements: Vec::new(),
+        temporaries: 0,
+    };
+    for i in 0..program.instrs.len() {
+        let text = printer.expression(i);
+        printer.texts.push(text);
+    }
+    printer.argument(program.outputs[0]).0
+}
+
 /// The shortest decimal that reads back as `value`.
 pub fn format_constant(value: f32) -> String {
     let plain = format!("{value}");

@@ -1,0 +1,132 @@
+use super::{Common, Failure, run_folder};
+use crate::program::{Arg, Draft, Names};
+use crate::search::{Census, Front, FrontMember, Recurring};
+use serde::Serialize;
+use std::fmt::Write;
+use std::path::PathBuf;
+
+/// Show which variables and subexpressions recur in a run's formulas
+///
+/// What many formulas share says something of the data: a variable that few use may not matter, a
+/// subexpression that many have may be the change of variable that the data calls for. Constants
+/// are written `c`; what occurs only within a larger subexpression, or is another moved or scaled
+/// by constants, is not listed apart.
+#[derive(clap::Args)]
+pub struct Args {
+    /// A folder that `lgp search` or `lgp merge` wrote
+    run: PathBuf,
+    /// Subexpressions to show
+    #[arg(long, value_name = "N", default_value_t = 20)]
+    top: usize,
+}
+
+#[derive(Serialize)]
+struct Analysis {
+    front: Part,
+    /// The best formulas at each cost, now and then while the search ran; null if that was not
+    /// recorded.
+    run: Option<Part>,
+}
+
+#[derive(Serialize)]
+struct Part {
+    formulas: u64,
+    variables: Vec<Variable>,
+    subexpressions: Vec<Recurring>,
+}
+
+#[derive(Serialize)]
+struct Variable {
+    name: String,
+    count: u64,
+    share: f64,
+    /// Cycles of the cheapest formula of the front that uses it.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    cheapest: Option<f64>,
+}
+
+pub fn run(args: &Args, common: &Common) -> Result<(), Failure> {
+    let (run, front) = run_folder::load(&args.run)?;
+    let names = run.names();
+    let through = Census::load(&args.run)?;
+    let mut census = Census::default();
+    for member in &front.members {
+        census.count(&member.program, &names, run.seconds);
+    }
+    let mut analysis = Analysis {
+        front: Part::of(&census, &names, args.top),
+        run: through.as_ref().map(|census| Part::of(census, &names, args.top)),
+    };
+    for (i, variable) in analysis.front.variables.iter_mut().enumerate() {
+        variable.cheapest = cheapest(&front, i);
+    }
+    common.result(&analysis, &text(&analysis, through.as_ref()))
+}
+
+impl Part {
+    fn of(census: &Census, names: &Names, top: usize) -> Part {
+        let formulas = census.formulas();
+        let count = |i: usize| census.inputs().get(i).copied().unwrap_or(0);
+        let variable = |(i, name): (usize, &String)| Variable {
+            name: name.clone(),
+            count: count(i),
+            share: count(i) as f64 / formulas.max(1) as f64,
+            cheapest: None,
+        };
+        let mut subexpressions = census.recurring();
+        subexpressions.truncate(top);
+        let variables = names.inputs.iter().enumerate().map(variable).collect();
+        Part { formulas, variables, subexpressions }
+    }
+}
+
+/// The cycles of the first formula that uses an input: they rise along the front.
+fn cheapest(front: &Front, input: usize) -> Option<f64> {
+    let used = Arg::Input(input as u16);
+    let uses = |member: &&FrontMember| {
+        let Draft { instrs, outputs, .. } = &*member.program;
+        instrs.iter().flat_map(|instr| instr.args()).chain(outputs).any(|&arg| arg == used)
+    };
+    front.members.iter().find(uses).map(|member| member.cost)
+}
+
+fn text(analysis: &Analysis, through: Option<&Census>) -> String {
+    let mut text = format!("{} formulas in the front\n\n", analysis.front.formulas);
+    let percent = |share: f64| format!("{:.0} %", 100.0 * share);
+    let mut line = |[a, b, c, d, e]: [&str; 5]| {
+        let _ = writeln!(text, "{a:>7}  {b:>7}  {c:>9}  {d:>10}  {e}");
+    };
+    line(["front", "run", "from", "", "variable"]);
+    for (i, variable) in analysis.front.variables.iter().enumerate() {
+        let run = analysis.run.as_ref().map(|run| percent(run.variables[i].share));
+        let from = variable.cheapest.map(|cost| format!("{cost} cycles"));
+        let (run, from) = (run.unwrap_or_default(), from.unwrap_or_default());
+        line([&percent(variable.share), &run, &from, "", &variable.name]);
+    }
+    line(["\n  front", "run", "since", "operations", "subexpression"]);
+    for found in &analysis.front.subexpressions {
+        let run = through.and_then(|census| census.find(&found.expression));
+        let since = run.as_ref().map(|run| format!("{:.1} s", run.first)).unwrap_or_default();
+        let run = run.map(|run| percent(run.share)).unwrap_or_default();
+        let operations = found.operations.to_string();
+        line([&percent(found.share), &run, &since, &operations, &found.expression]);
+    }
+    let Some(run) = &analysis.run else { return text };
+    let _ = writeln!(
+        text,
+        "\nThrough the run, of {} times that a formula was the best at its cost:\n",
+        run.formulas
+    );
+    for found in &run.subexpressions {
+        let _ = writeln!(
+            text,
+            "{:>7}  {:>7}  {:>9}  {:>10}  {}",
+            "",
+            percent(found.share),
+            format!("{:.1} s", found.first),
+            found.operations,
+            found.expression
+        );
+    }
+    text
+}

@@ -1,0 +1,47 @@
+use super::{Common, Failure, front, run_folder};
+use crate::report::table::front_table;
+use crate::search::{MemberRecord, Run, merge};
+use std::path::{Path, PathBuf};
+
+/// Put runs together: the front that none of their formulas dominates
+///
+/// The order does not matter, nor how often a run is given: seeds can be spread over any number of
+/// machines, and unions merged again. The runs must be of the same dataset, columns, grammar and GPU
+/// profile.
+#[derive(clap::Args)]
+pub struct Args {
+    /// Folders that `lgp search` or `lgp merge` wrote
+    #[arg(required = true)]
+    runs: Vec<PathBuf>,
+    /// Where the union is written; a union that is there already is replaced
+    #[arg(long, value_name = "DIR")]
+    out: PathBuf,
+}
+
+pub fn run(args: &Args, common: &Common) -> Result<(), Failure> {
+    let runs: Result<Vec<_>, Failure> = args.runs.iter().map(|run| run_folder::load(run)).collect();
+    let Some((run, union)) = merge(runs?)? else {
+        return Err(Failure::usage("no runs to merge"));
+    };
+    check_replaceable(&args.out)?;
+    run_folder::create(&args.out)?;
+    let incumbents = front::incumbents(&run).unwrap_or_default();
+    run_folder::write_front(&args.out, &run, &union, &incumbents)?;
+    run.save(&args.out)?;
+    let names = run.names();
+    let records: Vec<_> = union.members.iter().map(|m| MemberRecord::new(m, &names)).collect();
+    common.result(&records, &front_table(&union, &incumbents, &names.outputs))?;
+    if !common.quiet {
+        eprintln!("{} searches; written to {}", run.sources.len(), args.out.display());
+    }
+    Ok(())
+}
+
+/// A search's folder holds what cannot be had again.
+fn check_replaceable(out: &Path) -> Result<(), Failure> {
+    if !out.join("run.ron").exists() || !Run::load(out)?.sources.is_empty() {
+        return Ok(());
+    }
+    let out = out.display();
+    Err(Failure::usage(format!("{out}: the union would replace a search; choose another --out")))
+}

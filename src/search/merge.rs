@@ -1,0 +1,146 @@
+//! The union of runs: associative, commutative, idempotent, so that any scheduler can spread seeds
+//! over machines and put together what comes back, in any order.
+
+use super::{Front, Run};
+
+/// Runs that have no union.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+#[error("the runs differ in their {what}: {one} and {other}; merge runs of the same {what}")]
+pub struct Incompatible {
+    what: &'static str,
+    one: String,
+    other: String,
+}
+
+/// The run and the front that hold what all of them hold: the members that none dominates, and the
+/// searches they came from, each once. Nothing of no runs.
+///
+/// # Errors
+/// Runs of other data, columns, grammars or GPU profiles.
+pub fn merge(runs: Vec<(Run, Front)>) -> Result<Option<(Run, Front)>, Incompatible> {
+    let mut sources = Vec::new();
+    let mut members = Vec::new();
+    for (run, front) in runs {
+        match run.sources.is_empty() {
+            true => sources.push(run),
+            false => sources.extend(run.sources),
+        }
+        members.extend(front.members);
+    }
+    let Some(first) = sources.first() else { return Ok(None) };
+    for other in &sources[1..] {
+        check(first, other)?;
+    }
+    Ok(Some((union(sources), Front::from_members(members))))
+}
+
+fn check(one: &Run, other: &Run) -> Result<(), Incompatible> {
+    let names = |run: &Run| {
+        let names = run.names();
+        format!("{} → {}", names.inputs.join(", "), names.outputs.join(", "))
+    };
+    let data = |run: &Run| format!("{} ({})", run.name, run.dataset_hash);
+    let differences = [
+        ("dataset", data(one), data(other)),
+        ("columns", names(one), names(other)),
+        ("grammar", one.grammar.clone(), other.grammar.clone()),
+        ("GPU profile", one.gpu.clone(), other.gpu.clone()),
+    ];
+    match differences.into_iter().find(|(_, one, other)| one != other) {
+        None => Ok(()),
+        Some((what, one, other)) => Err(Incompatible { what, one, other }),
+    }
+}
+
+/// What is said of all searches together depends on their set alone.
+fn union(mut sources: Vec<Run>) -> Run {
+    let key = |run: &Run| ron::to_string(run).expect("plain data");
+    sources.sort_by_cached_key(key);
+    sources.dedup();
+    let mut union = Run { command: vec!["lgp".into(), "merge".into()], ..sources[0].clone() };
+    for source in &sources[1..] {
+        union.generations += source.generations;
+        union.seconds += source.seconds;
+        union.counts.add(&source.counts);
+    }
+    union.sources = sources;
+    union
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::eval::{OutputError, Score};
+    use crate::program::{Names, parse};
+    use crate::search::{Counts, FrontMember, Settings};
+
+    fn run(seed: u64, members: &[(f64, f64, &str)]) -> (Run, Front) {
+        let column = |name: &str| crate::dataset::Column {
+            name: name.into(),
+            unit: "1".into(),
+            domain: [0.0, 1.0],
+        };
+        let run = Run {
+            version: "1".into(),
+            command: vec![format!("lgp search --seed {seed}")],
+            dataset: "d.bin".into(),
+            dataset_hash: "ab".into(),
+            name: "d".into(),
+            inputs: vec![column("x")],
+            outputs: vec![column("y")],
+            grammar: "shader".into(),
+            gpu: "gcn".into(),
+            settings: Settings { seed, ..Settings::default() },
+            machine: "m".into(),
+            threads: 1,
+            generations: seed,
+            seconds: 0.5,
+            counts: Counts { considered: 10, ..Counts::default() },
+            sources: Vec::new(),
+        };
+        let names = Names::new(["x"], ["y"]);
+        let member = |&(cost, rmse, formula): &(f64, f64, &str)| {
+            let errors = vec![OutputError { rmse, max: rmse }];
+            FrontMember {
+                program: parse(formula, &names).unwrap(),
+                cost,
+                score: Score { search: errors.clone(), validation: errors },
+                formula: formula.into(),
+            }
+        };
+        (run, Front { members: members.iter().map(member).collect() })
+    }
+
+    fn union_of(runs: &[&(Run, Front)]) -> (Run, Front) {
+        merge(runs.iter().map(|&run| run.clone()).collect()).unwrap().unwrap()
+    }
+
+    #[test]
+    fn merging_is_associative_commutative_and_idempotent() {
+        let a = run(1, &[(1.0, 0.5, "y = x"), (3.0, 0.2, "y = x*x + x")]);
+        let b = run(2, &[(1.0, 0.5, "y = x + 0"), (2.0, 0.4, "y = x*x"), (4.0, 0.3, "y = 1/x")]);
+        let c = run(3, &[(0.0, 0.6, "y = 0.5"), (2.5, 0.2, "y = x*x - x")]);
+        let all = union_of(&[&a, &b, &c]);
+        assert_eq!(all, union_of(&[&c, &a, &b]));
+        assert_eq!(all, union_of(&[&union_of(&[&a, &b]), &c]));
+        assert_eq!(all, union_of(&[&a, &union_of(&[&c, &b])]));
+        assert_eq!(all, union_of(&[&all, &all, &b]));
+        assert_eq!(union_of(&[&a]), union_of(&[&a, &a]));
+        let formulas: Vec<&str> = all.1.members.iter().map(|m| m.formula.as_str()).collect();
+        assert_eq!(formulas, ["y = 0.5", "y = x", "y = x*x", "y = x*x - x"]);
+        assert_eq!((all.0.generations, all.0.counts.considered, all.0.sources.len()), (6, 30, 3));
+    }
+
+    #[test]
+    fn runs_of_other_things_have_no_union() {
+        let a = run(1, &[]);
+        let mut b = run(2, &[]);
+        b.0.gpu = "rdna2".into();
+        let error = merge(vec![a.clone(), b]).unwrap_err().to_string();
+        assert!(error.contains("GPU profile: gcn and rdna2"), "{error}");
+        let mut c = run(2, &[]);
+        c.0.dataset_hash = "cd".into();
+        assert!(merge(vec![a, c]).unwrap_err().to_string().contains("dataset: d (ab) and d (cd)"));
+        assert_eq!(merge(Vec::new()), Ok(None));
+    }
+}

@@ -1,0 +1,179 @@
+//! `merge` and `analyze` on the real command line.
+
+use assert_cmd::Command;
+use serde_json::Value;
+use std::path::Path;
+use std::process::Output;
+use tempfile::TempDir;
+
+fn lgp(folder: &Path, args: &[&str]) -> Output {
+    let mut command = Command::cargo_bin("lgp").expect("the program is built");
+    command.current_dir(folder).args(args).output().expect("it runs")
+}
+
+fn text(bytes: &[u8]) -> String {
+    String::from_utf8_lossy(bytes).into_owned()
+}
+
+fn succeed(folder: &Path, args: &[&str]) -> String {
+    let output = lgp(folder, args);
+    assert!(output.status.success(), "{args:?}: {}", text(&output.stderr));
+    text(&output.stdout)
+}
+
+/// A table of `max(x, y)²`, and short searches on it with seeds 1, 2 and 3 in `run1` and so on.
+fn searched() -> TempDir {
+    let folder = tempfile::tempdir().unwrap();
+    let value = |i: usize| (i as f32 + 0.5) / 16.0;
+    let row = |i: usize| {
+        let (x, y) = (value(i % 16), value(i / 16));
+        format!("{x},{y},{}\n", x.max(y).powi(2) + 0.1 * x)
+    };
+    let rows: String = (0..256).map(row).collect();
+    std::fs::write(folder.path().join("d.csv"), format!("x,y,z\n{rows}")).unwrap();
+    succeed(folder.path(), &["import", "d.csv", "-o", "d.bin", "--inputs", "2", "--quiet"]);
+    for seed in ["1", "2", "3"] {
+        let out = format!("run{seed}");
+        let search =
+            ["search", "d.bin", "--generations", "3", "--islands", "2", "--max-cost", "12"];
+        let args = [&search[..], &["--seed", seed, "--out", &out, "--quiet"]].concat();
+        succeed(folder.path(), &args);
+    }
+    folder
+}
+
+/// All files of a folder, by name.
+fn content(folder: &Path) -> Vec<(String, Vec<u8>)> {
+    let mut files = Vec::new();
+    for entry in std::fs::read_dir(folder).unwrap().flatten() {
+        let name = entry.file_name().to_string_lossy().into_owned();
+        if entry.path().is_dir() {
+            let within = content(&entry.path()).into_iter();
+            files.extend(within.map(|(file, bytes)| (format!("{name}/{file}"), bytes)));
+        } else {
+            files.push((name, std::fs::read(entry.path()).unwrap()));
+        }
+    }
+    files.sort();
+    files
+}
+
+#[test]
+fn merging_is_associative_commutative_and_idempotent() {
+    let folder = searched();
+    let here = folder.path();
+    let merged = |runs: &[&str], out: &str| {
+        succeed(here, &[&["merge"], runs, &["--out", out, "--quiet"]].concat());
+        content(&here.join(out))
+    };
+    let all = merged(&["run1", "run2", "run3"], "all");
+    assert!(all.iter().any(|(file, _)| file == "snippets/01.hlsl"));
+    assert_eq!(all, merged(&["run3", "run1", "run2"], "permuted"));
+    merged(&["run1", "run2"], "first");
+    assert_eq!(all, merged(&["first", "run3"], "left"));
+    merged(&["run2", "run3"], "second");
+    assert_eq!(all, merged(&["run1", "second"], "right"));
+    assert_eq!(all, merged(&["all", "run2", "all"], "again"));
+    assert_eq!(all, merged(&["all"], "all"));
+}
+
+#[test]
+fn a_union_is_a_front_of_all_members_and_a_run_as_others() {
+    let folder = searched();
+    let here = folder.path();
+    let members = |args: &[&str]| {
+        let front: Vec<Value> = serde_json::from_str(&succeed(here, args)).unwrap();
+        let number = |member: &Value, field: &str| member[field].as_f64().unwrap();
+        let point = |m: &Value| (number(m, "cost"), number(&m["validation"], "rmse"));
+        front.iter().map(point).collect::<Vec<_>>()
+    };
+    let union = members(&["merge", "run1", "run2", "run3", "--out", "all", "--json"]);
+    for run in ["run1", "run2", "run3"] {
+        for (cost, error) in members(&["front", run, "--json"]) {
+            assert!(union.iter().any(|&(c, e)| c <= cost && e <= error), "{run}: {cost} {error}");
+        }
+    }
+    assert!(union.windows(2).all(|pair| pair[0].0 < pair[1].0 && pair[0].1 > pair[1].1));
+    assert_eq!(union, members(&["front", "all", "--json"]));
+    let snippet = succeed(here, &["emit", "all", "--lang", "wgsl"]);
+    assert!(snippet.contains("seeds 1, 2, 3"), "{snippet}");
+}
+
+#[test]
+fn runs_that_have_no_union_are_refused_and_nothing_is_written() {
+    let folder = searched();
+    let here = folder.path();
+    let search = ["search", "d.bin", "--generations", "1", "--islands", "1", "--quiet"];
+    succeed(here, &[&search[..], &["--grammar", "polynomial", "--out", "polynomial"]].concat());
+    succeed(here, &[&search[..], &["--inputs", "x", "--out", "narrow"]].concat());
+    let table = std::fs::read_to_string(here.join("d.csv")).unwrap();
+    std::fs::write(here.join("d.csv"), table.replace("0.03125,0.03125", "0.03,0.03125")).unwrap();
+    succeed(here, &["import", "d.csv", "-o", "d.bin", "--inputs", "2", "--quiet"]);
+    succeed(here, &[&search[..], &["--out", "other"]].concat());
+    std::fs::create_dir(here.join("empty")).unwrap();
+    std::fs::write(here.join("file"), "").unwrap();
+    let before = content(&here.join("run1"));
+    for (args, code, expected) in [
+        (&["merge", "--out", "all"][..], 2, "required"),
+        (&["merge", "run1"], 2, "--out"),
+        (&["merge", "run1", "polynomial", "--out", "all"], 3, "grammar: "),
+        (&["merge", "run1", "narrow", "--out", "all"], 3, "columns: "),
+        (&["merge", "run1", "other", "--out", "all"], 3, "dataset: "),
+        (&["merge", "run1", "nowhere", "--out", "all"], 3, "nowhere"),
+        (&["merge", "run1", "empty", "--out", "all"], 3, "run.ron"),
+        (&["merge", "run1", "run2", "--out", "run1"], 2, "another --out"),
+        (&["merge", "run1", "run2", "--out", "file/all"], 1, "file/all"),
+        (&["analyze", "nowhere"], 3, "nowhere"),
+        (&["analyze", "empty"], 3, "run.ron"),
+    ] {
+        let output = lgp(here, args);
+        let message = text(&output.stderr);
+        assert_eq!(output.status.code(), Some(code), "{args:?}: {message}");
+        assert!(message.contains(expected), "{args:?}: {message}");
+        assert!(output.stdout.is_empty(), "{args:?}");
+    }
+    assert!(!here.join("all").exists());
+    assert_eq!(before, content(&here.join("run1")));
+
+    succeed(here, &["merge", "run1", "run2", "--out", "all", "--quiet"]);
+    let resumed = lgp(here, &["search", "d.bin", "--out", "all", "--resume"]);
+    assert_eq!(resumed.status.code(), Some(3));
+    assert!(text(&resumed.stderr).contains("--guess"), "{}", text(&resumed.stderr));
+}
+
+#[test]
+fn what_recurs_is_shown_of_the_front_and_of_the_run() {
+    let folder = searched();
+    let here = folder.path();
+    let shown = succeed(here, &["analyze", "run1"]);
+    for expected in ["formulas in the front", "variable", "subexpression", "max(x, y)"] {
+        assert!(shown.contains(expected), "{expected} is not in\n{shown}");
+    }
+    let analysis: Value =
+        serde_json::from_str(&succeed(here, &["analyze", "run1", "--json"])).unwrap();
+    let front: Vec<Value> =
+        serde_json::from_str(&succeed(here, &["front", "run1", "--json"])).unwrap();
+    assert_eq!(analysis["front"]["formulas"], front.len());
+    let using = |name: &str| {
+        front.iter().filter(|member| member["formula"].as_str().unwrap().contains(name)).count()
+    };
+    let variables = analysis["front"]["variables"].as_array().unwrap();
+    for (variable, name) in variables.iter().zip(["x", "y"]) {
+        assert_eq!((&variable["name"], &variable["count"]), (&name.into(), &using(name).into()));
+    }
+    let recurring = analysis["run"]["subexpressions"].as_array().unwrap();
+    assert!(recurring.iter().any(|found| found["expression"] == "max(x, y)"), "{recurring:?}");
+    assert!(analysis["run"]["formulas"].as_u64().unwrap() > front.len() as u64);
+
+    let few = succeed(here, &["analyze", "run1", "--json", "--top", "1"]);
+    let few: Value = serde_json::from_str(&few).unwrap();
+    assert_eq!(few["front"]["subexpressions"].as_array().unwrap().len(), 1);
+
+    succeed(here, &["merge", "run1", "run2", "--out", "all", "--quiet"]);
+    let union: Value = serde_json::from_str(&succeed(here, &["analyze", "all", "--json"])).unwrap();
+    assert!(union["run"].is_null() && union["front"]["formulas"].as_u64().unwrap() > 1);
+    std::fs::write(here.join("run1/census.json"), "{").unwrap();
+    let damaged = lgp(here, &["analyze", "run1"]);
+    assert_eq!(damaged.status.code(), Some(3));
+    assert!(text(&damaged.stderr).contains("census.json, line 1"), "{}", text(&damaged.stderr));
+}
