@@ -1,4 +1,5 @@
-use super::{Common, Failure, run_folder};
+use super::run_folder::{self, Which};
+use super::{Common, Failure};
 use crate::program::{Arg, Draft, Names};
 use crate::search::{Census, Front, FrontMember, Recurring};
 use serde::Serialize;
@@ -46,7 +47,7 @@ struct Variable {
 }
 
 pub fn run(args: &Args, common: &Common) -> Result<(), Failure> {
-    let (run, front) = run_folder::load(&args.run)?;
+    let (run, front) = run_folder::load(&args.run, Which::default())?;
     let names = run.names();
     let through = Census::load(&args.run)?;
     let mut census = Census::default();

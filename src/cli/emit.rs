@@ -1,4 +1,5 @@
-use super::{Common, Exit, Failure, run_folder};
+use super::run_folder::{self, Which};
+use super::{Common, Exit, Failure};
 use crate::emit::Language;
 use crate::search::{Front, FrontMember};
 use serde::Serialize;
@@ -9,6 +10,8 @@ use std::path::PathBuf;
 pub struct Args {
     /// A folder that `lgp search` wrote
     run: PathBuf,
+    #[command(flatten)]
+    which: Which,
     /// hlsl, wgsl, glsl, msl, c, rust, python or latex
     #[arg(long, value_name = "L", value_parser = Language::from_name)]
     lang: Language,
@@ -18,7 +21,7 @@ pub struct Args {
     /// The most accurate that costs at most C cycles
     #[arg(long, value_name = "C")]
     max_cost: Option<f64>,
-    /// The cheapest whose RMSE is at most E
+    /// The cheapest whose error (RMSE, or what the front was searched by) is at most E
     #[arg(long, value_name = "E")]
     max_error: Option<f64>,
 }
@@ -33,7 +36,7 @@ struct Emitted<'a> {
 }
 
 pub fn run(args: &Args, common: &Common) -> Result<(), Failure> {
-    let (run, front) = run_folder::load(&args.run)?;
+    let (run, front) = run_folder::load(&args.run, args.which)?;
     let member = pick(args, &front)?;
     let code = run_folder::snippet(&run, member, args.lang);
     let emitted = Emitted {
@@ -52,13 +55,13 @@ fn pick<'a>(args: &Args, front: &'a Front) -> Result<&'a FrontMember, Failure> {
     if args.max_cost.is_some() || args.max_error.is_some() {
         let (cost, error) =
             (args.max_cost.unwrap_or(f64::INFINITY), args.max_error.unwrap_or(f64::INFINITY));
-        let mut suitable = members
-            .iter()
-            .filter(|member| member.cost <= cost && member.search_error().rmse <= error);
+        let mut suitable = members.iter().filter(|member| {
+            member.cost <= cost && member.search_error().of(front.measure) <= error
+        });
         // The front falls: the cheapest is the first, the most accurate the last.
         let found = if args.max_error.is_some() { suitable.next() } else { suitable.next_back() };
         return found.ok_or_else(|| {
-            unmet(format!("no formula of the front costs at most {cost} cycles with an RMSE of at most {error}; search longer, or ask for less"))
+            unmet(format!("no formula of the front costs at most {cost} cycles with an error of at most {error}; search longer, or ask for less"))
         });
     }
     match args.pick.as_deref() {

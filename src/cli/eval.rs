@@ -1,7 +1,7 @@
-use super::{Common, Failure, columns::Columns};
+use super::{Common, Exit, Failure, columns::Columns};
 use crate::cost::Profile;
 use crate::dataset::Dataset;
-use crate::program::{Names, ParseError, Program, parse};
+use crate::program::{Names, ParseError, Parsed, Scope, parse_template};
 use crate::report::table::front_table;
 use crate::search::{Front, FrontMember, MemberRecord};
 use std::path::PathBuf;
@@ -25,23 +25,28 @@ pub struct Args {
 pub fn run(args: &Args, common: &Common) -> Result<(), Failure> {
     let dataset = args.columns.of(&Dataset::load(&args.dataset)?)?;
     let profile = Profile::find(&args.gpu)?;
-    let (program, names) = assigned_outputs(&args.formula, &dataset.names())?;
+    let Parsed { program, names, free } = assigned_outputs(&args.formula, &dataset.names())?;
+    if let Some(constant) = free.first() {
+        let name = &constant.name;
+        let message =
+            format!("`${name}` is a free constant; give it a value, or fit it with `lgp fit`");
+        return Err(Failure::new(Exit::Input, anyhow::Error::msg(message)));
+    }
     let dataset = dataset.select(Some(&names.inputs), Some(&names.outputs))?;
     let member = FrontMember::new(program, &dataset, &profile, &names);
     let record = MemberRecord::new(&member, &names);
-    let table = front_table(&Front { members: vec![member] }, &[], &names.outputs);
+    let table =
+        front_table(&Front { members: vec![member], ..Front::default() }, &[], &names.outputs);
     common.result(&record, &table)
 }
 
-/// The program of those outputs that the formula assigns.
-fn assigned_outputs(formula: &str, names: &Names) -> Result<(Program, Names), ParseError> {
+/// What a text says of those outputs that it assigns.
+pub(super) fn assigned_outputs(formula: &str, names: &Names) -> Result<Parsed, ParseError> {
     let over =
         |outputs: &[String]| Names { inputs: names.inputs.clone(), outputs: outputs.to_vec() };
-    let assigned = names
-        .outputs
-        .iter()
-        .filter(|&output| parse(formula, &over(std::slice::from_ref(output))).is_ok());
+    let parsed = |outputs: &[String]| parse_template(formula, Scope::Dataset(&over(outputs)));
+    let assigned =
+        names.outputs.iter().filter(|&output| parsed(std::slice::from_ref(output)).is_ok());
     let assigned: Vec<String> = assigned.cloned().collect();
-    let names = if assigned.is_empty() { names.clone() } else { over(&assigned) };
-    Ok((parse(formula, &names)?, names))
+    if assigned.is_empty() { parsed(&names.outputs) } else { parsed(&assigned) }
 }

@@ -1,4 +1,5 @@
-use super::{Common, Failure, run_folder, search};
+use super::run_folder::{self, Which};
+use super::{Common, Failure, search};
 use crate::cost::Profile;
 use crate::dataset::Dataset;
 use crate::report::table::{Published, front_table};
@@ -10,10 +11,12 @@ use std::path::PathBuf;
 pub struct Args {
     /// A folder that `lgp search` wrote
     run: PathBuf,
+    #[command(flatten)]
+    which: Which,
 }
 
 pub fn run(args: &Args, common: &Common) -> Result<(), Failure> {
-    let (run, front) = run_folder::load(&args.run)?;
+    let (run, front) = run_folder::load(&args.run, args.which)?;
     let names = run.names();
     let records: Vec<_> = front.members.iter().map(|m| MemberRecord::new(m, &names)).collect();
     let table = front_table(&front, &incumbents(&run).unwrap_or_default(), &names.outputs);

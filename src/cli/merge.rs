@@ -1,6 +1,7 @@
-use super::{Common, Failure, front, run_folder};
+use super::run_folder::{self, Which};
+use super::{Common, Failure, front};
 use crate::report::table::front_table;
-use crate::search::{MemberRecord, Run, merge};
+use crate::search::{Front, MemberRecord, Run, merge};
 use std::path::{Path, PathBuf};
 
 /// Put runs together: the front that none of their formulas dominates
@@ -19,14 +20,12 @@ pub struct Args {
 }
 
 pub fn run(args: &Args, common: &Common) -> Result<(), Failure> {
-    let runs: Result<Vec<_>, Failure> = args.runs.iter().map(|run| run_folder::load(run)).collect();
-    let Some((run, union)) = merge(runs?)? else {
-        return Err(Failure::usage("no runs to merge"));
-    };
+    let (run, union) = united(args, Which { minimax: false })?;
+    let (_, minimax) = united(args, Which { minimax: true })?;
     check_replaceable(&args.out)?;
     run_folder::create(&args.out)?;
     let incumbents = front::incumbents(&run).unwrap_or_default();
-    run_folder::write_front(&args.out, &run, &union, &incumbents)?;
+    run_folder::write_fronts(&args.out, &run, &union, &minimax, &incumbents)?;
     run.save(&args.out)?;
     let names = run.names();
     let records: Vec<_> = union.members.iter().map(|m| MemberRecord::new(m, &names)).collect();
@@ -35,6 +34,12 @@ pub fn run(args: &Args, common: &Common) -> Result<(), Failure> {
         eprintln!("{} searches; written to {}", run.sources.len(), args.out.display());
     }
     Ok(())
+}
+
+fn united(args: &Args, which: Which) -> Result<(Run, Front), Failure> {
+    let runs: Result<Vec<_>, Failure> =
+        args.runs.iter().map(|run| run_folder::load(run, which)).collect();
+    merge(runs?)?.ok_or_else(|| Failure::usage("no runs to merge"))
 }
 
 /// A search's folder holds what cannot be had again.

@@ -6,6 +6,7 @@ mod duration;
 mod emit;
 mod eval;
 mod failure;
+mod fit;
 mod front;
 mod generate;
 mod import;
@@ -65,6 +66,7 @@ enum Command {
     Eval(eval::Args),
     Analyze(analyze::Args),
     Merge(merge::Args),
+    Fit(fit::Args),
     Generate(generate::Args),
     Import(import::Args),
     Info(info::Args),
@@ -80,6 +82,7 @@ impl Command {
             Command::Eval(args) => eval::run(args, common),
             Command::Analyze(args) => analyze::run(args, common),
             Command::Merge(args) => merge::run(args, common),
+            Command::Fit(args) => fit::run(args, common),
             Command::Generate(args) => generate::run(args, common),
             Command::Import(args) => import::run(args, common),
             Command::Info(args) => info::run(args, common),

@@ -4,12 +4,17 @@ use super::{Exit, Failure};
 use crate::dataset::{Column, Dataset, replace_file};
 use crate::emit::{self, Language, Snippet};
 use crate::eval::OutputError;
+use crate::fit::Measure;
 use crate::report::plot::{self, FrontPlot, PlotError, Theme};
 use crate::report::table::{Published, error_text, front_table};
 use crate::search::{Census, Front, FrontMember, Run, Search, TracePoint, trace_csv};
 use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
+
+/// The front in the measure that was searched for, and in maximum error.
+const FRONT: &str = "front.json";
+const MINIMAX_FRONT: &str = "front-max.json";
 
 /// Between checkpoints.
 const CHECKPOINT_INTERVAL: Duration = Duration::from_secs(15);
@@ -75,6 +80,7 @@ impl PartialRun {
         &self,
         run: &Run,
         front: &Front,
+        minimax: &Front,
         incumbents: &[Published],
         search: &Search,
         dataset: &Dataset,
@@ -86,21 +92,23 @@ impl PartialRun {
         };
         write(&self.folder, "trace.csv", trace.as_bytes())?;
         self.census.save(&self.folder)?;
-        write_front(&self.folder, run, front, incumbents)?;
+        write_fronts(&self.folder, run, front, minimax, incumbents)?;
         search.save(&self.folder, dataset)?;
         Ok(run.save(&self.folder)?)
     }
 }
 
-/// Writes a front as text, pictures and snippets.
-pub fn write_front(
+/// Writes both fronts, and the one searched for as text, pictures and snippets.
+pub fn write_fronts(
     folder: &Path,
     run: &Run,
     front: &Front,
+    minimax: &Front,
     incumbents: &[Published],
 ) -> Result<(), Failure> {
     let names = run.names();
-    write(folder, "front.json", front.to_json(&names).as_bytes())?;
+    write(folder, FRONT, front.to_json(&names).as_bytes())?;
+    write(folder, MINIMAX_FRONT, minimax.to_json(&names).as_bytes())?;
     write(folder, "front.txt", front_table(front, incumbents, &names.outputs).as_bytes())?;
     write_plots(folder, run, front, incumbents)?;
     let snippets = folder.join("snippets");
@@ -196,14 +204,26 @@ fn domains(inputs: &[Column]) -> String {
     inputs.iter().map(domain).collect::<Vec<_>>().join(", ")
 }
 
-/// The run and the front of a folder that `lgp search` wrote.
-pub fn load(folder: &Path) -> Result<(Run, Front), Failure> {
+/// Which of a run's fronts.
+#[derive(Clone, Copy, Debug, Default, clap::Args)]
+pub struct Which {
+    /// The front in maximum error, its constants fitted for that, in place of the one searched for
+    #[arg(long)]
+    pub minimax: bool,
+}
+
+/// The run and a front of a folder that `lgp search` wrote.
+pub fn load(folder: &Path, which: Which) -> Result<(Run, Front), Failure> {
     if !folder.is_dir() {
         let message =
             format!("{}: no such folder; give one that `lgp search` wrote", folder.display());
         return Err(Failure::new(Exit::Input, anyhow::Error::msg(message)));
     }
     let run = Run::load(folder)?;
-    let front = Front::load(folder, &run.names())?;
+    let (file, measure) = match which.minimax {
+        true => (MINIMAX_FRONT, Measure::Max),
+        false => (FRONT, run.settings.measure),
+    };
+    let front = Front::load(&folder.join(file), &run.names(), measure)?;
     Ok((run, front))
 }

@@ -2,6 +2,7 @@ use super::run_folder::{self, PartialRun};
 use super::{Common, Exit, Failure, columns::Columns, duration};
 use crate::cost::Profile;
 use crate::dataset::{Dataset, incumbents_for};
+use crate::fit::Measure;
 use crate::grammar::Grammar;
 use crate::program::{Draft, parse};
 use crate::report::table::{Published, front_table};
@@ -39,6 +40,9 @@ pub struct Args {
     #[arg(long, value_name = "C", default_value_t = 40.0, value_parser = budget)]
     #[arg(allow_hyphen_values = true)]
     max_cost: f64,
+    /// What is made small: rmse, max, weighted (by the dataset's weights) or relative
+    #[arg(long, value_name = "MEASURE", default_value_t = Measure::Rmse)]
+    loss: Measure,
     /// Populations that evolve apart (part of what a seed repeats)
     #[arg(long, value_name = "N", default_value_t = 8)]
     #[arg(value_parser = clap::value_parser!(u16).range(1..=256))]
@@ -73,6 +77,7 @@ pub fn run(args: &Args, common: &Common) -> Result<(), Failure> {
         seed: common.seed,
         islands: args.islands.into(),
         max_cost: args.max_cost,
+        measure: args.loss,
         ..Settings::default()
     };
     let (mut search, before) = if args.resume {
@@ -89,6 +94,7 @@ pub fn run(args: &Args, common: &Common) -> Result<(), Failure> {
     let interrupted = watch_for_interrupts();
     let seconds = evolve(args, common, &mut search, &problem, &mut partial, before, &interrupted)?;
     let front = Front::of(&search, &problem);
+    let minimax = Front::in_measure(&search, &problem, Measure::Max);
     let run = Run {
         version: env!("CARGO_PKG_VERSION").to_owned(),
         command: std::env::args().collect(),
@@ -107,7 +113,7 @@ pub fn run(args: &Args, common: &Common) -> Result<(), Failure> {
         counts: search.counts(),
         sources: Vec::new(),
     };
-    partial.finish(&run, &front, &incumbents, &search, &dataset)?;
+    partial.finish(&run, &front, &minimax, &incumbents, &search, &dataset)?;
     show(common, &run, &front, &incumbents, &folder)?;
     if interrupted.load(Ordering::Relaxed) {
         let done = format!(
@@ -161,7 +167,7 @@ fn resumed(
     if !same {
         let path = folder.join("run.ron");
         let message = format!(
-            "{}: the run there has other settings; give the same --seed, --grammar, --gpu, --max-cost and --islands, or another --out",
+            "{}: the run there has other settings; give the same --seed, --grammar, --gpu, --loss, --max-cost and --islands, or another --out",
             path.display()
         );
         return Err(Failure::new(Exit::Input, anyhow::Error::msg(message)));

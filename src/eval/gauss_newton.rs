@@ -74,9 +74,9 @@ unsafe fn accumulate_in<L: Lanes>(
     jacobian: &Jacobian,
     equations: &mut NormalEquations,
 ) {
-    let weights = chunk.rows_of(chunk.samples.weights());
     let output = |index: u16| chunk.source(chunk.tape.outputs[usize::from(index)]);
     for (o, entries) in jacobian.entries[..jacobian.outputs].iter().enumerate() {
+        let weights = chunk.rows_of(chunk.samples.weights(o));
         let residual =
             Residual { values: output(o as u16), targets: chunk.rows_of(chunk.samples.target(o)) };
         // SAFETY: promised by the caller; every source holds the chunk's blocks.

@@ -67,8 +67,8 @@ by_isa! {
 /// The processor has `L`, whose width is [`BLOCK`].
 #[inline(always)]
 unsafe fn accumulate_in<L: Lanes>(chunk: &Chunk, loss: &mut Loss) {
-    let weights = chunk.rows_of(chunk.samples.weights());
     for (o, &output) in chunk.tape.outputs.iter().enumerate() {
+        let weights = chunk.rows_of(chunk.samples.weights(o));
         let values = chunk.source(output);
         let targets = chunk.rows_of(chunk.samples.target(o));
         // SAFETY: promised by the caller; block `i` lies within the chunk.

@@ -16,7 +16,7 @@ pub struct Samples {
     blocks: usize,
     inputs: usize,
     outputs: usize,
-    /// Inputs, outputs, weights; `blocks` each.
+    /// Inputs, outputs, each output's weights; `blocks` each.
     values: Vec<Block>,
     total_weight: f64,
 }
@@ -36,19 +36,22 @@ impl Samples {
         assert!(!rows.is_empty(), "at least one row");
         let blocks = rows.len().div_ceil(BLOCK);
         let columns = split.columns.len();
-        let mut values = Vec::with_capacity((columns + 1) * blocks);
+        let outputs = columns - inputs;
+        let mut values = Vec::with_capacity((columns + outputs) * blocks);
         for column in &split.columns {
             push_column(&mut values, rows, |row| column[row], |last| last);
         }
-        push_column(&mut values, rows, |row| split.weight(row), |_| 0.0);
-        let total_weight = rows.iter().map(|&row| f64::from(split.weight(row as usize))).sum();
+        for _ in 0..outputs {
+            push_column(&mut values, rows, |row| split.weight(row), |_| 0.0);
+        }
+        let total_weight: f64 = rows.iter().map(|&row| f64::from(split.weight(row as usize))).sum();
         Samples {
             rows: rows.len(),
             blocks,
             inputs,
-            outputs: columns - inputs,
+            outputs,
             values,
-            total_weight,
+            total_weight: total_weight * outputs as f64,
         }
     }
 
@@ -65,7 +68,7 @@ impl Samples {
         self.outputs
     }
 
-    /// The sum of the samples' weights.
+    /// The sum of all weights, over samples and outputs.
     pub fn total_weight(&self) -> f64 {
         self.total_weight
     }
@@ -84,8 +87,33 @@ impl Samples {
         &self.values[index * self.blocks..(index + 1) * self.blocks]
     }
 
-    pub(super) fn weights(&self) -> &[Block] {
-        self.column(self.inputs + self.outputs)
+    /// Gives the samples weights for one output, in place of those that they have.
+    ///
+    /// # Panics
+    /// If there are fewer weights than samples, or no such output.
+    pub fn set_weights(&mut self, output: usize, weights: &[f32]) {
+        assert!(output < self.outputs, "one of the outputs");
+        let first = (self.inputs + self.outputs + output) * self.blocks;
+        let lanes: &mut [f32] =
+            bytemuck::cast_slice_mut(&mut self.values[first..first + self.blocks]);
+        let change: f64 = lanes[..self.rows]
+            .iter_mut()
+            .zip(&weights[..self.rows])
+            .map(|(lane, &weight)| f64::from(weight) - f64::from(std::mem::replace(lane, weight)))
+            .sum();
+        self.total_weight += change;
+    }
+
+    /// What an output should be, sample by sample.
+    ///
+    /// # Panics
+    /// If there is no such output.
+    pub fn targets(&self, output: usize) -> &[f32] {
+        &bytemuck::cast_slice(self.target(output))[..self.rows]
+    }
+
+    pub(super) fn weights(&self, output: usize) -> &[Block] {
+        self.column(self.inputs + self.outputs + output)
     }
 
     pub(super) fn target(&self, output: usize) -> &[Block] {

@@ -10,6 +10,9 @@ use serde::{Deserialize, Serialize};
 pub struct OutputError {
     pub rmse: f64,
     pub max: f64,
+    /// Root mean square of the errors relative to the value; values below a thousandth of the output's
+    /// largest count as that.
+    pub relative: f64,
 }
 
 /// A program's errors on a dataset. What is not finite is infinite.
@@ -52,20 +55,33 @@ impl Score {
 
 /// The root mean square of the outputs' RMSEs, and the largest of their maxima.
 pub fn joint(errors: &[OutputError]) -> OutputError {
-    let mean = errors.iter().map(|e| e.rmse * e.rmse).sum::<f64>() / errors.len() as f64;
-    OutputError { rmse: mean.sqrt(), max: errors.iter().map(|e| e.max).fold(0.0, f64::max) }
+    let root_mean = |part: fn(&OutputError) -> f64| {
+        (errors.iter().map(|e| part(e).powi(2)).sum::<f64>() / errors.len() as f64).sqrt()
+    };
+    OutputError {
+        rmse: root_mean(|e| e.rmse),
+        max: errors.iter().map(|e| e.max).fold(0.0, f64::max),
+        relative: root_mean(|e| e.relative),
+    }
 }
 
+/// The share of an output's largest value below which errors are no longer relative.
+pub const RELATIVE_FLOOR: f64 = 1e-3;
+
 fn output_error(values: &[f32], targets: &[f32], weight: &dyn Fn(usize) -> f64) -> OutputError {
-    let (mut squares, mut weights, mut max) = (0.0, 0.0, 0.0f64);
+    let largest = targets.iter().fold(f32::MIN_POSITIVE, |largest, y| largest.max(y.abs()));
+    let floor = RELATIVE_FLOOR * f64::from(largest);
+    let (mut squares, mut relative, mut weights, mut max) = (0.0, 0.0, 0.0, 0.0f64);
     for (row, (&f, &y)) in values.iter().zip(targets).enumerate() {
         if !f.is_finite() {
-            return OutputError { rmse: f64::INFINITY, max: f64::INFINITY };
+            let infinite = f64::INFINITY;
+            return OutputError { rmse: infinite, max: infinite, relative: infinite };
         }
         let difference = f64::from(f) - f64::from(y);
-        squares += weight(row) * difference * difference;
+        squares += weight(row) * difference.powi(2);
+        relative += weight(row) * (difference / f64::from(y).abs().max(floor)).powi(2);
         weights += weight(row);
         max = max.max(difference.abs());
     }
-    OutputError { rmse: (squares / weights).sqrt(), max }
+    OutputError { rmse: (squares / weights).sqrt(), max, relative: (relative / weights).sqrt() }
 }

@@ -2,8 +2,14 @@
 
 mod derivative;
 mod levenberg_marquardt;
+mod measure;
+mod minimax;
+mod model;
 mod shorten;
 
 pub use derivative::Differentiated;
 pub use levenberg_marquardt::{Fitter, Stop};
+pub use measure::Measure;
+pub use minimax::{Rounds, minimax, minimax_free, shorten_minimax};
+pub use model::{Parameter, fit_model};
 pub use shorten::shorten;

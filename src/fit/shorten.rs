@@ -8,7 +8,7 @@ use crate::program::Draft;
 const MAKE_UP: Stop = Stop { max_steps: 6, min_gain: 1e-4 };
 
 /// Digits beyond which an `f32` constant is left as it is.
-const MOST_DIGITS: usize = 6;
+pub(super) const MOST_DIGITS: usize = 6;
 
 /// Rounds constants one after the other, each to the fewest decimal digits with which the sum of
 /// squares, the remaining constants fitted again, stays within `(1 + allowance)` of what it was.
@@ -37,7 +37,7 @@ pub fn shorten(fitter: &mut Fitter, program: &mut Draft, samples: &Samples, allo
 }
 
 /// The value with so many significant decimal digits.
-fn rounded(value: f32, digits: usize) -> f32 {
+pub(super) fn rounded(value: f32, digits: usize) -> f32 {
     format!("{value:.*e}", digits - 1).parse().unwrap_or(value)
 }
 

@@ -19,7 +19,7 @@ const BUILT_IN: [(&str, &str); 3] = [
 ];
 
 /// The most instructions a grammar may allow.
-pub const MAX_INSTRUCTIONS: usize = 64;
+pub const MAX_INSTRUCTIONS: usize = 128;
 
 /// What a search may write.
 #[derive(Clone, Debug, PartialEq)]

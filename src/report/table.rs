@@ -1,5 +1,6 @@
 //! A front as a table of text, published formulas on the same axes.
 
+use crate::fit::Measure;
 use crate::search::{Front, FrontMember};
 use std::fmt::Write;
 
@@ -60,19 +61,34 @@ fn numbers(member: &FrontMember) -> String {
 fn incumbent_row(known: &Published, front: &Front) -> String {
     let standing = match dominating(known, front) {
         Some((i, member)) => format!(
-            "dominated by {} ({} cycles, RMSE {})",
+            "dominated by {} ({} cycles, {} {})",
             i + 1,
             member.cost,
-            error_text(member.search_error().rmse)
+            title(front.measure),
+            error_text(member.search_error().of(front.measure))
         ),
         None => "not dominated".to_owned(),
     };
     format!("   *  {}\n      {}: {standing}\n", numbers(&known.member), known.name)
 }
 
+/// A measure as tables and plots write it.
+pub fn title(measure: Measure) -> &'static str {
+    match measure {
+        Measure::Rmse => "RMSE",
+        Measure::Max => "max",
+        Measure::Weighted => "weighted RMSE",
+        Measure::Relative => "relative RMSE",
+    }
+}
+
 /// The cheapest member that dominates an incumbent, and its place.
 pub fn dominating<'a>(known: &Published, front: &'a Front) -> Option<(usize, &'a FrontMember)> {
-    front.members.iter().enumerate().find(|(_, member)| member.dominates(&known.member))
+    front
+        .members
+        .iter()
+        .enumerate()
+        .find(|(_, member)| member.dominates(&known.member, front.measure))
 }
 
 /// An error in eight columns.

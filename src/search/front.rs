@@ -1,19 +1,13 @@
 //! The front: what a search leaves behind.
 
+use super::polish::{polish, promising};
 use super::{Problem, Search};
 use crate::cost::{CostScratch, Profile};
 use crate::dataset::Dataset;
 use crate::eval::{Evaluator, OutputError, Score, joint};
-use crate::fit::{Fitter, Stop, shorten};
-use crate::program::{Draft, Names, Program, effective, parse, print};
-use crate::simplify::{Simplifier, tidy};
+use crate::fit::Measure;
+use crate::program::{Draft, Names, Program, parse, print};
 use rayon::prelude::*;
-
-/// Fits of the front go on until nothing is gained.
-const TO_CONVERGENCE: Stop = Stop { max_steps: 200, min_gain: 1e-7 };
-
-/// The share by which constants of fewer digits may raise the sum of squares: half of it in RMSE.
-const SHORTENING_ALLOWANCE: f64 = 0.004;
 
 /// A formula of the front.
 #[derive(Clone, Debug, PartialEq)]
@@ -45,8 +39,8 @@ impl FrontMember {
     }
 
     /// Whether it costs no more than the other and errs no more, on the search split.
-    pub fn dominates(&self, other: &FrontMember) -> bool {
-        let [mine, other_error] = [self, other].map(|member| member.search_error().rmse);
+    pub fn dominates(&self, other: &FrontMember, measure: Measure) -> bool {
+        let [mine, other_error] = [self, other].map(|member| member.search_error().of(measure));
         self.cost <= other.cost
             && mine <= other_error
             && (self.cost < other.cost || mine < other_error)
@@ -63,28 +57,44 @@ impl FrontMember {
     }
 }
 
-/// Formulas by rising cost, none dominated in cost and validation RMSE.
+/// Formulas by rising cost, none dominated in cost and error: the validation split's, but for the
+/// maximum error, which is judged where it was made small.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Front {
+    /// What its errors are judged by.
+    pub measure: Measure,
     pub members: Vec<FrontMember>,
 }
 
 impl Front {
-    /// The archive's members with their constants fitted to convergence on all of the search
-    /// split, scored, those not finite somewhere or dominated dropped.
+    /// The archive's members, polished for what the search makes small: constants fitted to
+    /// convergence on all of the search split and shortened; then scored, those not finite
+    /// somewhere or dominated dropped.
     pub fn of(search: &Search, problem: &Problem) -> Front {
-        let names = problem.dataset.names();
-        let archive = search.archive().members();
-        let polished: Vec<FrontMember> = archive
-            .par_iter()
-            .filter_map(|member| polish(&member.draft, problem, &names))
-            .collect();
-        Front::from_members(polished)
+        Front::in_measure(search, problem, problem.measure)
     }
 
-    /// Keeps the non-dominated members.
-    pub fn from_members(mut members: Vec<FrontMember>) -> Front {
-        let key = |member: &FrontMember| member.validation_error().rmse;
+    /// [`Front::of`], polished and judged by another measure than the search's. For the maximum error,
+    /// which a search finds by way of RMSE, the islands' best compete as well.
+    pub fn in_measure(search: &Search, problem: &Problem, measure: Measure) -> Front {
+        let names = problem.dataset.names();
+        let archive = search.archive().members().iter().map(|member| &member.draft);
+        let mut drafts: Vec<Draft> = archive.cloned().collect();
+        if measure == Measure::Max {
+            drafts.extend(search.contenders().into_iter().cloned());
+            drafts = promising(drafts, problem);
+        }
+        let polished: Vec<FrontMember> =
+            drafts.par_iter().filter_map(|draft| polish(draft, problem, &names, measure)).collect();
+        Front::from_members(polished, measure)
+    }
+
+    /// Keeps the members that are not dominated.
+    pub fn from_members(mut members: Vec<FrontMember>, measure: Measure) -> Front {
+        let key = |member: &FrontMember| match measure {
+            Measure::Max => member.search_error().max,
+            _ => member.validation_error().of(measure),
+        };
         members.sort_by(|a, b| {
             a.cost
                 .total_cmp(&b.cost)
@@ -97,36 +107,19 @@ impl Front {
             least = least.min(key(member));
             kept
         });
-        Front { members }
+        Front { measure, members }
     }
 
     /// The member that gains most over a straight line between the ends, in the logarithm of the
     /// error: past it, cycles buy less.
     pub fn knee(&self) -> Option<&FrontMember> {
         let (first, last) = (self.members.first()?, self.members.last()?);
-        let height = |member: &FrontMember| member.validation_error().rmse.max(1e-30).ln();
+        let height =
+            |member: &FrontMember| member.validation_error().of(self.measure).max(1e-30).ln();
         let slope = (height(last) - height(first)) / (last.cost - first.cost).max(1.0);
         let gain = |member: &FrontMember| {
             height(first) + slope * (member.cost - first.cost) - height(member)
         };
         self.members.iter().max_by(|a, b| gain(a).total_cmp(&gain(b)))
     }
-}
-
-/// Fits to convergence, shortens the constants, and drops what a constant has made superfluous.
-fn polish(draft: &Draft, problem: &Problem, names: &Names) -> Option<FrontMember> {
-    let mut fitter = Fitter::default();
-    let mut draft = draft.clone();
-    fitter.fit(&mut draft, &problem.all, TO_CONVERGENCE);
-    shorten(&mut fitter, &mut draft, &problem.all, SHORTENING_ALLOWANCE);
-    let mut simple = Draft::default();
-    Simplifier::default().simplify(&draft, &mut simple);
-    let finished = [draft, simple].into_iter().filter_map(|draft| {
-        let program = effective(&tidy(&Program::verify(draft).ok()?));
-        Some(FrontMember::new(program, problem.dataset, problem.profile, names))
-    });
-    // The simpler form, where rounding has not made it worse.
-    finished
-        .filter(|member| member.score.is_finite())
-        .reduce(|plain, simple| if simple.dominates(&plain) { simple } else { plain })
 }

@@ -31,6 +31,10 @@ const HOPELESS: f64 = 6.0;
 /// The subset's error estimates the whole table's to within this share.
 const SUBSET_TOLERANCE: f64 = 1.15;
 
+/// Shares of the cost budget that islands have. A cheap formula is soon as good as it gets where
+/// nothing dearer competes; from there it migrates to islands that may spend more.
+const BUDGET_SHARES: [f64; 8] = [1.0, 0.3, 0.6, 0.2, 1.0, 0.4, 1.0, 0.8];
+
 #[derive(Clone, Debug, Serialize, Deserialize)]
 pub(super) struct Island {
     pub population: Population,
@@ -57,9 +61,14 @@ struct Workshop {
 }
 
 impl Island {
-    pub fn new(settings: &Settings) -> Island {
+    pub fn new(number: usize, settings: &Settings) -> Island {
+        let share = BUDGET_SHARES[number % BUDGET_SHARES.len()];
+        let max_cost = (settings.max_cost * share).ceil();
+        // As many individuals on each island.
+        let crowd = settings.bucket_size as f64 * (settings.max_cost + 1.0);
+        let bucket_size = (crowd / (max_cost + 1.0)).round() as usize;
         Island {
-            population: Population::new(settings.max_cost, settings.bucket_size),
+            population: Population::new(max_cost, bucket_size),
             archive: Archive::default(),
             counts: Counts::default(),
             seen: vec![0; MEMORY],
@@ -74,7 +83,7 @@ impl Island {
         for _ in 0..settings.candidates {
             self.counts.considered += 1;
             self.conceive(&mut rng, problem);
-            self.consider(problem, settings);
+            self.consider(problem);
         }
     }
 
@@ -94,7 +103,7 @@ impl Island {
     }
 
     /// Simplifies, costs, fits and offers the child; drops it where it has no chance.
-    fn consider(&mut self, problem: &Problem, settings: &Settings) {
+    fn consider(&mut self, problem: &Problem) {
         let Workshop { simplifier, fitter, cost: scratch, hashes, uses, child, candidate, .. } =
             &mut self.workshop;
         simplifier.simplify(child, candidate);
@@ -107,7 +116,7 @@ impl Island {
             return;
         }
         let cost = problem.cost(candidate, scratch);
-        if cost > settings.max_cost {
+        if cost > self.population.max_cost {
             self.counts.too_dear += 1;
             return;
         }
@@ -118,7 +127,7 @@ impl Island {
         }
         let admission = self.population.admission(cost);
         let subset = &problem.subset;
-        let scale = 1.0 / (subset.total_weight() * subset.outputs() as f64);
+        let scale = 1.0 / subset.total_weight();
         let loss = fitter.fit(candidate, subset, FIRST_STEPS) * scale;
         self.counts.fitted += 1;
         if !loss.is_finite() {
@@ -153,7 +162,7 @@ impl Island {
 
     /// Takes a draft from elsewhere into the population, fitted; equal constants in it are fitted
     /// apart.
-    pub fn settle(&mut self, draft: &Draft, problem: &Problem, settings: &Settings) {
+    pub fn settle(&mut self, draft: &Draft, problem: &Problem) {
         let child = &mut self.workshop.child;
         child.copy_from(draft);
         child.consts.clear();
@@ -165,7 +174,7 @@ impl Island {
                 *i = (consts.len() - 1) as u16;
             }
         }
-        self.consider(problem, settings);
+        self.consider(problem);
     }
 }
 

@@ -2,6 +2,7 @@
 //! over machines and put together what comes back, in any order.
 
 use super::{Front, Run};
+use crate::fit::Measure;
 
 /// Runs that have no union.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
@@ -16,10 +17,11 @@ pub struct Incompatible {
 /// searches they came from, each once. Nothing of no runs.
 ///
 /// # Errors
-/// Runs of other data, columns, grammars or GPU profiles.
+/// Runs of other data, columns, grammars, GPU profiles or error measures.
 pub fn merge(runs: Vec<(Run, Front)>) -> Result<Option<(Run, Front)>, Incompatible> {
     let mut sources = Vec::new();
     let mut members = Vec::new();
+    let measure = runs.first().map_or(Measure::Rmse, |(_, front)| front.measure);
     for (run, front) in runs {
         match run.sources.is_empty() {
             true => sources.push(run),
@@ -31,7 +33,7 @@ pub fn merge(runs: Vec<(Run, Front)>) -> Result<Option<(Run, Front)>, Incompatib
     for other in &sources[1..] {
         check(first, other)?;
     }
-    Ok(Some((union(sources), Front::from_members(members))))
+    Ok(Some((union(sources), Front::from_members(members, measure))))
 }
 
 fn check(one: &Run, other: &Run) -> Result<(), Incompatible> {
@@ -45,6 +47,7 @@ fn check(one: &Run, other: &Run) -> Result<(), Incompatible> {
         ("columns", names(one), names(other)),
         ("grammar", one.grammar.clone(), other.grammar.clone()),
         ("GPU profile", one.gpu.clone(), other.gpu.clone()),
+        ("error measure", one.settings.measure.to_string(), other.settings.measure.to_string()),
     ];
     match differences.into_iter().find(|(_, one, other)| one != other) {
         None => Ok(()),
@@ -100,7 +103,7 @@ mod tests {
         };
         let names = Names::new(["x"], ["y"]);
         let member = |&(cost, rmse, formula): &(f64, f64, &str)| {
-            let errors = vec![OutputError { rmse, max: rmse }];
+            let errors = vec![OutputError { rmse, max: rmse, relative: rmse }];
             FrontMember {
                 program: parse(formula, &names).unwrap(),
                 cost,
@@ -108,7 +111,7 @@ mod tests {
                 formula: formula.into(),
             }
         };
-        (run, Front { members: members.iter().map(member).collect() })
+        (run, Front { measure: Measure::Rmse, members: members.iter().map(member).collect() })
     }
 
     fn union_of(runs: &[&(Run, Front)]) -> (Run, Front) {

@@ -8,6 +8,7 @@ mod census;
 mod front;
 mod island;
 mod merge;
+mod polish;
 mod population;
 mod record;
 mod vary;
@@ -21,11 +22,13 @@ use crate::archive::Archive;
 use crate::cost::{CostScratch, Profile};
 use crate::dataset::Dataset;
 use crate::eval::Samples;
+use crate::fit::Measure;
 use crate::grammar::Grammar;
-use crate::program::Draft;
+use crate::program::{Constants, Draft, structural_hash};
 use island::Island;
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
+use std::collections::HashSet;
 
 /// What decides the course of a search, given its problem.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -43,6 +46,8 @@ pub struct Settings {
     pub migration_interval: u64,
     /// Samples on which candidates race; all of them where there are fewer.
     pub subset: usize,
+    /// What is made small.
+    pub measure: Measure,
 }
 
 impl Default for Settings {
@@ -55,6 +60,7 @@ impl Default for Settings {
             max_cost: 40.0,
             migration_interval: 20,
             subset: 256,
+            measure: Measure::Rmse,
         }
     }
 }
@@ -65,6 +71,7 @@ pub struct Problem<'a> {
     pub dataset: &'a Dataset,
     pub grammar: &'a Grammar,
     pub profile: &'a Profile,
+    measure: Measure,
     all: Samples,
     subset: Samples,
 }
@@ -86,8 +93,9 @@ impl<'a> Problem<'a> {
             dataset,
             grammar,
             profile,
-            all: Samples::new(&dataset.search, inputs),
-            subset: Samples::of_rows(&dataset.search, inputs, &rows),
+            measure: settings.measure,
+            all: settings.measure.all_samples(&dataset.search, inputs),
+            subset: settings.measure.samples(&dataset.search, inputs, &rows),
         }
     }
 
@@ -98,7 +106,7 @@ impl<'a> Problem<'a> {
 
     /// What turns a sum of squares over all samples and outputs into a mean.
     fn scale(&self) -> f64 {
-        1.0 / (self.all.total_weight() * self.all.outputs() as f64)
+        1.0 / self.all.total_weight()
     }
 }
 
@@ -114,6 +122,9 @@ fn spread_rows(rows: usize, wanted: usize) -> Vec<u32> {
     spread.dedup();
     spread
 }
+
+/// In mean square, how much worse than the archive's a contender may be.
+const CONTENDING: f64 = 4.0;
 
 /// What became of the candidates; each is counted once under `considered` and where it ended.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
@@ -162,7 +173,7 @@ pub struct Search {
 
 impl Search {
     pub fn new(settings: Settings) -> Search {
-        let islands = (0..settings.islands).map(|_| Island::new(&settings)).collect();
+        let islands = (0..settings.islands).map(|i| Island::new(i, &settings)).collect();
         Search { settings, generation: 0, islands, archive: Archive::default() }
     }
 
@@ -178,6 +189,21 @@ impl Search {
     /// The best found so far, on the whole search split.
     pub fn archive(&self) -> &Archive {
         &self.archive
+    }
+
+    /// The islands' individuals of structures that the archive has left out, so far as they
+    /// are not much worse than its own.
+    fn contenders(&self) -> Vec<&Draft> {
+        let archive = self.archive();
+        let mut hashes = Vec::new();
+        let mut structure = |draft| structural_hash(draft, Constants::Ignored, &mut hashes);
+        let mut known: HashSet<u64> =
+            archive.members().iter().map(|member| structure(&member.draft)).collect();
+        let all = self.islands.iter().flat_map(|island| island.population.individuals());
+        all.filter(|one| one.loss < CONTENDING * archive.best_loss(one.cost))
+            .filter(|one| known.insert(one.hash))
+            .map(|one| &one.draft)
+            .collect()
     }
 
     /// What became of all candidates so far.
@@ -222,7 +248,7 @@ impl Search {
     pub fn settle(&mut self, drafts: &[Draft], problem: &Problem) {
         for island in &mut self.islands {
             for draft in drafts {
-                island.settle(draft, problem, &self.settings);
+                island.settle(draft, problem);
             }
         }
         self.barrier();

@@ -18,6 +18,8 @@ pub(super) struct Individual {
 /// A bucket for each whole number of cycles, sorted by loss, structures distinct.
 #[derive(Clone, Debug, Serialize, Deserialize)]
 pub(super) struct Population {
+    /// Cycles that an individual may cost at most.
+    pub max_cost: f64,
     buckets: Vec<Vec<Individual>>,
     bucket_size: usize,
 }
@@ -27,15 +29,18 @@ const SLACK: f64 = 1.5;
 
 impl Population {
     pub fn new(max_cost: f64, bucket_size: usize) -> Population {
-        Population { buckets: vec![Vec::new(); max_cost as usize + 1], bucket_size }
+        Population { max_cost, buckets: vec![Vec::new(); max_cost as usize + 1], bucket_size }
     }
 
     fn bucket_of(&self, cost: f64) -> usize {
         (cost as usize).min(self.buckets.len() - 1)
     }
 
-    /// The loss that a newcomer at this cost must beat.
+    /// The loss that a newcomer at this cost must beat; none does that costs too much.
     pub fn admission(&self, cost: f64) -> f64 {
+        if cost > self.max_cost {
+            return 0.0;
+        }
         let bucket = self.bucket_of(cost);
         let cheaper = self.buckets[..bucket].iter().filter_map(|b| b.first());
         let best = cheaper.map(|individual| individual.loss).fold(f64::INFINITY, f64::min);
@@ -76,6 +81,11 @@ impl Population {
         let bucket = self.buckets.iter().filter(|bucket| !bucket.is_empty()).nth(chosen)?;
         let [a, b] = [0; 2].map(|_: i32| rng.random_range(0..bucket.len()));
         bucket.get(a.min(b))
+    }
+
+    /// By rising cost.
+    pub fn individuals(&self) -> impl Iterator<Item = &Individual> {
+        self.buckets.iter().flatten()
     }
 
     /// The best of each bucket.

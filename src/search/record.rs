@@ -4,6 +4,7 @@
 use super::{Counts, Front, FrontMember, Search, Settings};
 use crate::dataset::{Column, Dataset, replace_file};
 use crate::eval::{OutputError, Score};
+use crate::fit::Measure;
 use crate::program::{Names, parse};
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
@@ -120,16 +121,15 @@ impl Front {
         serde_json::to_string_pretty(&members).expect("plain data") + "\n"
     }
 
-    /// Reads `front.json` of a run's folder.
-    pub fn load(folder: &Path, names: &Names) -> Result<Front, RecordError> {
-        let path = folder.join("front.json");
-        let damaged = |line, reason| RecordError::Damaged { path: path.clone(), line, reason };
-        let text = read(&path)?;
+    /// Reads `front.json` or `front-max.json` of a run's folder, in the measure that it was made in.
+    pub fn load(path: &Path, names: &Names, measure: Measure) -> Result<Front, RecordError> {
+        let damaged = |line, reason| RecordError::Damaged { path: path.to_owned(), line, reason };
+        let text = read(path)?;
         let records: Vec<MemberRecord> = serde_json::from_str(&text)
             .map_err(|error| damaged(error.line(), error.to_string()))?;
         let members: Result<Vec<_>, String> =
             records.into_iter().map(|record| record.into_member(names)).collect();
-        Ok(Front { members: members.map_err(|reason| damaged(1, reason))? })
+        Ok(Front { measure, members: members.map_err(|reason| damaged(1, reason))? })
     }
 }
 

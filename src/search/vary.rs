@@ -7,11 +7,12 @@ use rand::RngExt;
 use rand_chacha::ChaCha8Rng;
 
 /// The kinds of change, each with how often it is made relative to the others.
-const MOVES: [(Move, u32); 8] = [
+const MOVES: [(Move, u32); 9] = [
     (Move::Operation, 15),
     (Move::Argument, 20),
     (Move::Constant, 8),
     (Move::Insert, 25),
+    (Move::Grow, 40),
     (Move::Delete, 12),
     (Move::Graft, 12),
     (Move::TakeOutput, 6),
@@ -28,6 +29,9 @@ enum Move {
     Constant,
     /// A new instruction between a source and its reader.
     Insert,
+    /// A small multiple of a value, or of a product, added to a source: the child begins as good as
+    /// its parent, and fitting can only better it.
+    Grow,
     /// An instruction replaced by one of its arguments.
     Delete,
     /// A copy of a donor's instructions, read by one argument or output.
@@ -81,6 +85,7 @@ impl Variation {
             Move::Argument => change_argument(rng, child),
             Move::Constant => change_constant(rng, child),
             Move::Insert => insert(rng, child, grammar),
+            Move::Grow => grow(rng, child),
             Move::Delete => delete(rng, child),
             Move::Graft => self.graft(rng, child, donor),
             Move::TakeOutput => self.take_output(rng, child, donor),
@@ -310,6 +315,36 @@ fn insert(rng: &mut ChaCha8Rng, draft: &mut Draft, grammar: &Grammar) {
         }
     }
 }
+
+fn grow(rng: &mut ChaCha8Rng, draft: &mut Draft) {
+    let edge = pick_edge(rng, draft, 0);
+    let at = earlier_than(draft, edge);
+    let source = *edge_mut(draft, edge);
+    let small = draft.constant(if rng.random_range(0..2) == 0 { SMALL } else { -SMALL });
+    let mut term = random_value(rng, draft, at);
+    let mut grown = Vec::with_capacity(3);
+    if rng.random_range(0..2) == 0 {
+        let factor = match rng.random_range(0..3) {
+            0 if !matches!(source, Arg::Const(_)) => source,
+            _ => random_value(rng, draft, at),
+        };
+        grown.push(Instr::new(Op::Mul, &[term, factor]));
+        term = Arg::Result(at as u16);
+    }
+    grown.push(Instr::new(Op::Mul, &[term, small]));
+    grown.push(Instr::new(Op::Add, &[source, Arg::Result((at + grown.len() - 1) as u16)]));
+    let count = grown.len();
+    shift_results(draft, at, count as u16);
+    draft.instrs.splice(at..at, grown);
+    let edge = match edge {
+        Edge::Argument(i, place) => Edge::Argument(i + count, place),
+        output => output,
+    };
+    *edge_mut(draft, edge) = Arg::Result((at + count - 1) as u16);
+}
+
+/// What [`Move::Grow`] begins with.
+const SMALL: f32 = 1.0 / 256.0;
 
 fn delete(rng: &mut ChaCha8Rng, draft: &mut Draft) {
     if draft.instrs.is_empty() {

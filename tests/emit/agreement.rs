@@ -3,6 +3,7 @@
 use crate::programs::programs_of;
 use lgp::dataset::{Dataset, Split};
 use lgp::eval::{Evaluator, Samples, Tape};
+use lgp::fit::Measure;
 use lgp::op::Op;
 use lgp::program::{Names, Program};
 use lgp::search::{Front, Run};
@@ -92,7 +93,8 @@ pub fn front() -> Vec<Case> {
         parts.concat()
     };
     let split = Split { columns: (0..run.inputs.len()).map(both).collect(), ..Split::default() };
-    let members = Front::load(&folder, &run.names()).unwrap().members;
+    let members =
+        Front::load(&folder.join("front.json"), &run.names(), Measure::Rmse).unwrap().members;
     assert!(members.len() >= 20);
     let cases = members.into_iter().enumerate().map(|(i, member)| {
         Case::new(i, format!("member {}", i + 1), member.program, run.names(), &split)

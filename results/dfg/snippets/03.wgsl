@@ -2,14 +2,14 @@
 // data: dfg (7b034b9b6a989aa5), seed 1, lgp 0.1.0
 // domain: n_dot_v in [0, 1], roughness in [0, 1]
 // cost: 2 cycles on gcn
-// error: RMSE 0.11540, max 0.89150 on the search split
-//        RMSE 0.11501, max 0.92501 on the validation split
-//        scale: RMSE 0.09461, max 0.64543
+// error: RMSE 0.11134, max 0.89150 on the search split
+//        RMSE 0.11108, max 0.92501 on the validation split
+//        scale: RMSE 0.08431, max 0.30066
 //        bias: RMSE 0.13298, max 0.89150
 // finite on every sample of both splits
-// scale = 0.68 - n_dot_v*(roughness^2 - 0.5); bias = 0.07
+// scale = saturate(roughness + n_dot_v*(2.5 - 3.5*roughness)); bias = 0.07
 fn dfg(n_dot_v: f32, roughness: f32) -> vec2<f32> {
-    let scale = 0.68 - n_dot_v*(roughness*roughness - 0.5);
+    let scale = saturate(roughness + n_dot_v*(2.5 - 3.5*roughness));
     let bias = 0.07;
     return vec2<f32>(scale, bias);
 }

@@ -2,14 +2,15 @@
 // data: dfg (7b034b9b6a989aa5), seed 1, lgp 0.1.0
 // domain: n_dot_v in [0, 1], roughness in [0, 1]
 // cost: 4 cycles on gcn
-// error: RMSE 0.08842, max 0.68459 on the search split
-//        RMSE 0.08818, max 0.71523 on the validation split
-//        scale: RMSE 0.08021, max 0.43147
-//        bias: RMSE 0.09594, max 0.68459
+// error: RMSE 0.04389, max 0.19242 on the search split
+//        RMSE 0.04383, max 0.20667 on the validation split
+//        scale: RMSE 0.04169, max 0.18180
+//        bias: RMSE 0.04599, max 0.19242
 // finite on every sample of both splits
-// bias = 0.28 - 0.22*(n_dot_v + 0.8*roughness); scale = n_dot_v + bias*(5*roughness + 1.5)
+// t0 = 0.84 - 1.3*roughness; bias = saturate(t0 - 1.6*n_dot_v); scale = saturate(n_dot_v*t0 + 0.74) - 0.68*bias
 float2 dfg(float n_dot_v, float roughness) {
-    const float bias = 0.28 - 0.22*(n_dot_v + 0.8*roughness);
-    const float scale = n_dot_v + bias*(5.0*roughness + 1.5);
+    const float t0 = 0.84 - 1.3*roughness;
+    const float bias = saturate(t0 - 1.6*n_dot_v);
+    const float scale = saturate(n_dot_v*t0 + 0.74) - 0.68*bias;
     return float2(scale, bias);
 }

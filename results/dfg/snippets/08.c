@@ -2,12 +2,12 @@
 // data: dfg (7b034b9b6a989aa5), seed 1, lgp 0.1.0
 // domain: n_dot_v in [0, 1], roughness in [0, 1]
 // cost: 7 cycles on gcn
-// error: RMSE 0.03415, max 0.15189 on the search split
-//        RMSE 0.03412, max 0.15397 on the validation split
-//        scale: RMSE 0.03851, max 0.14672
-//        bias: RMSE 0.02915, max 0.15189
+// error: RMSE 0.02420, max 0.14226 on the search split
+//        RMSE 0.02416, max 0.15339 on the validation split
+//        scale: RMSE 0.02847, max 0.14226
+//        bias: RMSE 0.01898, max 0.13199
 // finite on every sample of both splits
-// bias = max(0.85 - 1.16*(roughness - n_dot_v*(2.3*roughness - 1.9)), 0.015); scale = (0.35 - roughness^2)*(n_dot_v - 2.2*bias) + 0.785
+// t0 = saturate(saturate(roughness*(3.5*n_dot_v - 1.42) + 1.09) - 2.1*n_dot_v); bias = t0^2 + 0.009; scale = saturate(n_dot_v*(0.35 - roughness^2) + 0.81) - 0.73*bias
 #include <math.h>
 
 typedef struct {
@@ -16,9 +16,11 @@ typedef struct {
 } dfg_outputs;
 
 dfg_outputs dfg(float n_dot_v, float roughness) {
-    const float t0 = 0.85f - 1.16f*(roughness - n_dot_v*(2.3f*roughness - 1.9f));
-    const float bias = fmaxf(t0, 0.015f);
-    const float scale = (0.35f - roughness*roughness)*(n_dot_v - 2.2f*bias) + 0.785f;
+    const float t0 = fminf(fmaxf(roughness*(3.5f*n_dot_v - 1.42f) + 1.09f, 0.0f), 1.0f);
+    const float t1 = fminf(fmaxf(t0 - 2.1f*n_dot_v, 0.0f), 1.0f);
+    const float bias = t1*t1 + 0.009f;
+    const float t2 = fminf(fmaxf(n_dot_v*(0.35f - roughness*roughness) + 0.81f, 0.0f), 1.0f);
+    const float scale = t2 - 0.73f*bias;
     const dfg_outputs result = { scale, bias };
     return result;
 }

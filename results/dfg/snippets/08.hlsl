@@ -2,14 +2,15 @@
 // data: dfg (7b034b9b6a989aa5), seed 1, lgp 0.1.0
 // domain: n_dot_v in [0, 1], roughness in [0, 1]
 // cost: 7 cycles on gcn
-// error: RMSE 0.03415, max 0.15189 on the search split
-//        RMSE 0.03412, max 0.15397 on the validation split
-//        scale: RMSE 0.03851, max 0.14672
-//        bias: RMSE 0.02915, max 0.15189
+// error: RMSE 0.02420, max 0.14226 on the search split
+//        RMSE 0.02416, max 0.15339 on the validation split
+//        scale: RMSE 0.02847, max 0.14226
+//        bias: RMSE 0.01898, max 0.13199
 // finite on every sample of both splits
-// bias = max(0.85 - 1.16*(roughness - n_dot_v*(2.3*roughness - 1.9)), 0.015); scale = (0.35 - roughness^2)*(n_dot_v - 2.2*bias) + 0.785
+// t0 = saturate(saturate(roughness*(3.5*n_dot_v - 1.42) + 1.09) - 2.1*n_dot_v); bias = t0^2 + 0.009; scale = saturate(n_dot_v*(0.35 - roughness^2) + 0.81) - 0.73*bias
 float2 dfg(float n_dot_v, float roughness) {
-    const float bias = max(0.85 - 1.16*(roughness - n_dot_v*(2.3*roughness - 1.9)), 0.015);
-    const float scale = (0.35 - roughness*roughness)*(n_dot_v - 2.2*bias) + 0.785;
+    const float t0 = saturate(saturate(roughness*(3.5*n_dot_v - 1.42) + 1.09) - 2.1*n_dot_v);
+    const float bias = t0*t0 + 0.009;
+    const float scale = saturate(n_dot_v*(0.35 - roughness*roughness) + 0.81) - 0.73*bias;
     return float2(scale, bias);
 }

@@ -2,18 +2,19 @@
 # data: dfg (7b034b9b6a989aa5), seed 1, lgp 0.1.0
 # domain: n_dot_v in [0, 1], roughness in [0, 1]
 # cost: 8 cycles on gcn
-# error: RMSE 0.02463, max 0.14487 on the search split
-#        RMSE 0.02464, max 0.17321 on the validation split
-#        scale: RMSE 0.03049, max 0.14487
-#        bias: RMSE 0.01685, max 0.08101
+# error: RMSE 0.01833, max 0.09212 on the search split
+#        RMSE 0.01834, max 0.12956 on the validation split
+#        scale: RMSE 0.02037, max 0.09212
+#        bias: RMSE 0.01602, max 0.07833
 # finite on every sample of both splits
-# t0 = 1.1*n_dot_v - 1; t1 = t0*(t0 - roughness*t0) + 0.001; bias = t1^2 + 0.007; scale = min(0.773 - (1.35*roughness - 0.81)*(n_dot_v + t0*t1), 0.9863)
+# t0 = saturate(saturate(roughness*(2.7*n_dot_v - 1.27) + 1.05) - 1.9*n_dot_v); bias = t0^2 + 0.009; scale = saturate(n_dot_v*(roughness*(0.57*n_dot_v - 1.8) + 0.69) + 0.879) - 0.891*bias
 import numpy as np
 
 
 def dfg(n_dot_v, roughness):
-    t0 = 1.1*n_dot_v - 1.0
-    t1 = t0*(t0 - roughness*t0) + 0.001
-    bias = t1*t1 + 0.007
-    scale = np.minimum(0.773 - (1.35*roughness - 0.81)*(n_dot_v + t0*t1), 0.9863)
+    t0 = np.clip(roughness*(2.7*n_dot_v - 1.27) + 1.05, 0.0, 1.0) - 1.9*n_dot_v
+    t1 = np.clip(t0, 0.0, 1.0)
+    bias = t1*t1 + 0.009
+    t2 = n_dot_v*(roughness*(0.57*n_dot_v - 1.8) + 0.69) + 0.879
+    scale = np.clip(t2, 0.0, 1.0) - 0.891*bias
     return scale, bias

@@ -2,18 +2,16 @@
 // data: dfg (7b034b9b6a989aa5), seed 1, lgp 0.1.0
 // domain: n_dot_v in [0, 1], roughness in [0, 1]
 // cost: 10 cycles on gcn
-// error: RMSE 0.01449, max 0.09732 on the search split
-//        RMSE 0.01450, max 0.10769 on the validation split
-//        scale: RMSE 0.01687, max 0.09732
-//        bias: RMSE 0.01163, max 0.05956
+// error: RMSE 0.01304, max 0.07094 on the search split
+//        RMSE 0.01305, max 0.08238 on the validation split
+//        scale: RMSE 0.01452, max 0.07094
+//        bias: RMSE 0.01137, max 0.05605
 // finite on every sample of both splits
-// t0 = 0.3*n_dot_v - roughness; t1 = 0.0229 - 0.026*max(n_dot_v, roughness); t2 = t1*(61.7*n_dot_v - 41.7) - 0.029; bias = t1 + t2^2; t3 = t0*(n_dot_v*t0 - 0.08) - 0.889; scale = t3*(t3 + 1.224*bias) + 0.2202
+// t0 = (1.5*n_dot_v - 1.157)*max(n_dot_v, roughness) + 0.9966 - 1.3*n_dot_v; bias = t0^2 + 0.0081; scale = saturate(n_dot_v*(roughness*(n_dot_v*(2 - 0.92*n_dot_v) - 2.354) + 0.645) + 0.9272) - 1.001*bias
 vec2 dfg(float n_dot_v, float roughness) {
-    float t0 = 0.3*n_dot_v - roughness;
-    float t1 = 0.0229 - 0.026*max(n_dot_v, roughness);
-    float t2 = t1*(61.7*n_dot_v - 41.7) - 0.029;
-    float bias = t1 + t2*t2;
-    float t3 = t0*(n_dot_v*t0 - 0.08) - 0.889;
-    float scale = t3*(t3 + 1.224*bias) + 0.2202;
+    float t0 = (1.5*n_dot_v - 1.157)*max(n_dot_v, roughness) + 0.9966 - 1.3*n_dot_v;
+    float bias = t0*t0 + 0.0081;
+    float t1 = n_dot_v*(roughness*(n_dot_v*(2.0 - 0.92*n_dot_v) - 2.354) + 0.645);
+    float scale = clamp(t1 + 0.9272, 0.0, 1.0) - 1.001*bias;
     return vec2(scale, bias);
 }

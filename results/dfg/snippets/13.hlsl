@@ -2,18 +2,17 @@
 // data: dfg (7b034b9b6a989aa5), seed 1, lgp 0.1.0
 // domain: n_dot_v in [0, 1], roughness in [0, 1]
 // cost: 12 cycles on gcn
-// error: RMSE 0.01264, max 0.09696 on the search split
-//        RMSE 0.01265, max 0.10277 on the validation split
-//        scale: RMSE 0.01523, max 0.09696
-//        bias: RMSE 0.00935, max 0.04851
+// error: RMSE 0.01092, max 0.06895 on the search split
+//        RMSE 0.01095, max 0.08550 on the validation split
+//        scale: RMSE 0.01315, max 0.06373
+//        bias: RMSE 0.00809, max 0.06895
 // finite on every sample of both splits
-// t0 = max(roughness - 0.31*n_dot_v, -0.008); t1 = 0.031 - 0.03*max(n_dot_v, roughness); t2 = t1*(265*n_dot_v - 144) - 1.38; bias = t1*(t2^2 - 0.8); t3 = t0*(n_dot_v*t0 + 0.06) - 0.904; scale = t3*(t3 + 1.18*bias) + 0.182
+// t0 = 1.8*n_dot_v - 1.23; t1 = saturate(t0*max(n_dot_v, max(roughness, 0.05)) + 0.995 - 1.4*n_dot_v); bias = t1^2 - 0.033*t0; scale = saturate(n_dot_v*(roughness*(n_dot_v*(1.84 - 0.8*n_dot_v) + (-0.5*roughness - 1.6)) + 0.385) + 0.942) - 1.005*abs(bias)
 float2 dfg(float n_dot_v, float roughness) {
-    const float t0 = max(roughness - 0.31*n_dot_v, -0.008);
-    const float t1 = 0.031 - 0.03*max(n_dot_v, roughness);
-    const float t2 = t1*(265.0*n_dot_v - 144.0) - 1.38;
-    const float bias = t1*(t2*t2 - 0.8);
-    const float t3 = t0*(n_dot_v*t0 + 0.06) - 0.904;
-    const float scale = t3*(t3 + 1.18*bias) + 0.182;
+    const float t0 = 1.8*n_dot_v - 1.23;
+    const float t1 = saturate(t0*max(n_dot_v, max(roughness, 0.05)) + 0.995 - 1.4*n_dot_v);
+    const float bias = t1*t1 - 0.033*t0;
+    const float t2 = roughness*(n_dot_v*(1.84 - 0.8*n_dot_v) + (-0.5*roughness - 1.6));
+    const float scale = saturate(n_dot_v*(t2 + 0.385) + 0.942) - 1.005*abs(bias);
     return float2(scale, bias);
 }

@@ -2,18 +2,19 @@
 // data: dfg (7b034b9b6a989aa5), seed 1, lgp 0.1.0
 // domain: n_dot_v in [0, 1], roughness in [0, 1]
 // cost: 12 cycles on gcn
-// error: RMSE 0.01264, max 0.09696 on the search split
-//        RMSE 0.01265, max 0.10277 on the validation split
-//        scale: RMSE 0.01523, max 0.09696
-//        bias: RMSE 0.00935, max 0.04851
+// error: RMSE 0.01092, max 0.06895 on the search split
+//        RMSE 0.01095, max 0.08550 on the validation split
+//        scale: RMSE 0.01315, max 0.06373
+//        bias: RMSE 0.00809, max 0.06895
 // finite on every sample of both splits
-// t0 = max(roughness - 0.31*n_dot_v, -0.008); t1 = 0.031 - 0.03*max(n_dot_v, roughness); t2 = t1*(265*n_dot_v - 144) - 1.38; bias = t1*(t2^2 - 0.8); t3 = t0*(n_dot_v*t0 + 0.06) - 0.904; scale = t3*(t3 + 1.18*bias) + 0.182
+// t0 = 1.8*n_dot_v - 1.23; t1 = saturate(t0*max(n_dot_v, max(roughness, 0.05)) + 0.995 - 1.4*n_dot_v); bias = t1^2 - 0.033*t0; scale = saturate(n_dot_v*(roughness*(n_dot_v*(1.84 - 0.8*n_dot_v) + (-0.5*roughness - 1.6)) + 0.385) + 0.942) - 1.005*abs(bias)
 pub fn dfg(n_dot_v: f32, roughness: f32) -> (f32, f32) {
-    let t0 = f32::max(roughness - 0.31*n_dot_v, -0.008);
-    let t1 = 0.031 - 0.03*f32::max(n_dot_v, roughness);
-    let t2 = t1*(265.0*n_dot_v - 144.0) - 1.38;
-    let bias = t1*(t2*t2 - 0.8);
-    let t3 = t0*(n_dot_v*t0 + 0.06) - 0.904;
-    let scale = t3*(t3 + 1.18*bias) + 0.182;
+    let t0 = 1.8*n_dot_v - 1.23;
+    let t1 = t0*f32::max(n_dot_v, f32::max(roughness, 0.05)) + 0.995 - 1.4*n_dot_v;
+    let t2 = f32::clamp(t1, 0.0, 1.0);
+    let bias = t2*t2 - 0.033*t0;
+    let t3 = roughness*(n_dot_v*(1.84 - 0.8*n_dot_v) + (-0.5*roughness - 1.6));
+    let t4 = f32::clamp(n_dot_v*(t3 + 0.385) + 0.942, 0.0, 1.0);
+    let scale = t4 - 1.005*f32::abs(bias);
     (scale, bias)
 }

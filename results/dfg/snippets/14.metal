@@ -2,19 +2,19 @@
 // data: dfg (7b034b9b6a989aa5), seed 1, lgp 0.1.0
 // domain: n_dot_v in [0, 1], roughness in [0, 1]
 // cost: 13 cycles on gcn
-// error: RMSE 0.00981, max 0.09484 on the search split
-//        RMSE 0.00983, max 0.08990 on the validation split
-//        scale: RMSE 0.01135, max 0.06041
-//        bias: RMSE 0.00797, max 0.09484
+// error: RMSE 0.00901, max 0.07566 on the search split
+//        RMSE 0.00905, max 0.07941 on the validation split
+//        scale: RMSE 0.01092, max 0.04954
+//        bias: RMSE 0.00656, max 0.07566
 // finite on every sample of both splits
-// t0 = 1.24*roughness - 0.09; t1 = max(n_dot_v, t0); t2 = n_dot_v*(3*t1 - 6.2) + 0.51; t3 = (0.173 - 0.076*t1)*(t2 - 7.29*t1) + 0.8844; bias = t3^2; scale = (t0*(t1 + t2*(n_dot_v - 1.8*roughness)) + 0.84)*(-1.26*bias - 0.2002) + 1.1692
+// t0 = n_dot_v*(0.67 - 0.45*n_dot_v) - 0.85; t1 = roughness*t0 + 1.9; t2 = saturate(t1 + 0.97*t0); t3 = saturate(t2 - 1.57*n_dot_v); bias = t3*(t3*(t1*t3 - t3) + 0.07) + 0.0036; scale = saturate(n_dot_v*(roughness*(0.66*n_dot_v + (t2 - 2.35)) + 0.35) + 0.939) - 0.995*abs(bias)
 float2 dfg(float n_dot_v, float roughness) {
-    const float t0 = 1.24*roughness - 0.09;
-    const float t1 = max(n_dot_v, t0);
-    const float t2 = n_dot_v*(3.0*t1 - 6.2) + 0.51;
-    const float t3 = (0.173 - 0.076*t1)*(t2 - 7.29*t1) + 0.8844;
-    const float bias = t3*t3;
-    const float t4 = (t0*(t1 + t2*(n_dot_v - 1.8*roughness)) + 0.84)*(-1.26*bias - 0.2002);
-    const float scale = t4 + 1.1692;
+    const float t0 = n_dot_v*(0.67 - 0.45*n_dot_v) - 0.85;
+    const float t1 = roughness*t0 + 1.9;
+    const float t2 = saturate(t1 + 0.97*t0);
+    const float t3 = saturate(t2 - 1.57*n_dot_v);
+    const float bias = t3*(t3*(t1*t3 - t3) + 0.07) + 0.0036;
+    const float t4 = n_dot_v*(roughness*(0.66*n_dot_v + (t2 - 2.35)) + 0.35) + 0.939;
+    const float scale = saturate(t4) - 0.995*abs(bias);
     return float2(scale, bias);
 }

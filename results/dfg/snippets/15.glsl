@@ -2,19 +2,19 @@
 // data: dfg (7b034b9b6a989aa5), seed 1, lgp 0.1.0
 // domain: n_dot_v in [0, 1], roughness in [0, 1]
 // cost: 14 cycles on gcn
-// error: RMSE 0.00848, max 0.11930 on the search split
-//        RMSE 0.00851, max 0.11079 on the validation split
-//        scale: RMSE 0.00997, max 0.06053
-//        bias: RMSE 0.00667, max 0.11930
+// error: RMSE 0.00882, max 0.07856 on the search split
+//        RMSE 0.00885, max 0.08146 on the validation split
+//        scale: RMSE 0.01045, max 0.04700
+//        bias: RMSE 0.00681, max 0.07856
 // finite on every sample of both splits
-// t0 = 1.44*roughness - 0.11; t1 = max(n_dot_v, t0); t2 = n_dot_v*(t1*(6.1 - 2.4*roughness) - 7.5) + 0.59; t3 = (0.1822 - 0.069*t1)*(t2 - 6.04*t1) + 0.8745; bias = t3^2; scale = (t0*(t1 + t2*(n_dot_v - 1.8*roughness)) + 0.86)*(-1.236*bias - 0.1812) + 1.1625
+// t0 = n_dot_v*(n_dot_v*(0.08*roughness - 0.6) + 0.7) - 0.86; t1 = roughness*t0 + 1.89; t2 = saturate(t1 + 0.94*t0); t3 = saturate(t2 - 1.56*n_dot_v); bias = t3*(t3*(t1*t3 - t3) + 0.071) + 0.004; scale = saturate(n_dot_v*(roughness*(0.84*n_dot_v + (t2 - 2.43)) + 0.341) + 0.946) - 1.009*abs(bias)
 vec2 dfg(float n_dot_v, float roughness) {
-    float t0 = 1.44*roughness - 0.11;
-    float t1 = max(n_dot_v, t0);
-    float t2 = n_dot_v*(t1*(6.1 - 2.4*roughness) - 7.5) + 0.59;
-    float t3 = (0.1822 - 0.069*t1)*(t2 - 6.04*t1) + 0.8745;
-    float bias = t3*t3;
-    float t4 = (t0*(t1 + t2*(n_dot_v - 1.8*roughness)) + 0.86)*(-1.236*bias - 0.1812);
-    float scale = t4 + 1.1625;
+    float t0 = n_dot_v*(n_dot_v*(0.08*roughness - 0.6) + 0.7) - 0.86;
+    float t1 = roughness*t0 + 1.89;
+    float t2 = clamp(t1 + 0.94*t0, 0.0, 1.0);
+    float t3 = clamp(t2 - 1.56*n_dot_v, 0.0, 1.0);
+    float bias = t3*(t3*(t1*t3 - t3) + 0.071) + 0.004;
+    float t4 = n_dot_v*(roughness*(0.84*n_dot_v + (t2 - 2.43)) + 0.341) + 0.946;
+    float scale = clamp(t4, 0.0, 1.0) - 1.009*abs(bias);
     return vec2(scale, bias);
 }

@@ -2,21 +2,18 @@
 // data: dfg (7b034b9b6a989aa5), seed 1, lgp 0.1.0
 // domain: n_dot_v in [0, 1], roughness in [0, 1]
 // cost: 16 cycles on gcn
-// error: RMSE 0.00775, max 0.09439 on the search split
-//        RMSE 0.00777, max 0.09059 on the validation split
-//        scale: RMSE 0.00879, max 0.04848
-//        bias: RMSE 0.00655, max 0.09439
+// error: RMSE 0.00828, max 0.07386 on the search split
+//        RMSE 0.00832, max 0.07229 on the validation split
+//        scale: RMSE 0.00975, max 0.04498
+//        bias: RMSE 0.00647, max 0.07386
 // finite on every sample of both splits
-// t0 = 1.3*roughness - 0.09; t1 = max(n_dot_v, t0); t2 = 2.8*t1 - t0; t3 = n_dot_v*(t2 - 3.6); t4 = (0.335 - 0.134*t1)*(t3 - 3.66*t1) + 0.9784; bias = t4^2; scale = (t0*(t0 + (n_dot_v - 1.3*roughness)*(0.9*t3 + min(t2, 0.85))) + 0.35)*(-2.96*bias - 0.422) + 1.1558
+// t0 = n_dot_v - 0.9*roughness; t1 = saturate(roughness*(n_dot_v*(-t0 - 0.26) - 0.03) + 1.05 + 0.79*t0); t2 = saturate(t1 - 1.59*(n_dot_v + 0.1*roughness)); bias = t2*((t1*t2 - 0.19)*t2 + 0.1512) + 0.00425; scale = saturate(n_dot_v*(roughness*(0.766*n_dot_v + (t1 - 2.56)) + 0.373) + 0.9675) + bias*(-0.413*roughness - 0.991)
 float2 dfg(float n_dot_v, float roughness) {
-    const float t0 = 1.3*roughness;
-    const float t1 = t0 - 0.09;
-    const float t2 = max(n_dot_v, t1);
-    const float t3 = 2.8*t2 - t1;
-    const float t4 = n_dot_v*(t3 - 3.6);
-    const float t5 = (0.335 - 0.134*t2)*(t4 - 3.66*t2) + 0.9784;
-    const float bias = t5*t5;
-    const float t6 = t1*(t1 + (n_dot_v - t0)*(0.9*t4 + min(t3, 0.85))) + 0.35;
-    const float scale = t6*(-2.96*bias - 0.422) + 1.1558;
+    const float t0 = n_dot_v - 0.9*roughness;
+    const float t1 = saturate(roughness*(n_dot_v*(-t0 - 0.26) - 0.03) + 1.05 + 0.79*t0);
+    const float t2 = saturate(t1 - 1.59*(n_dot_v + 0.1*roughness));
+    const float bias = t2*((t1*t2 - 0.19)*t2 + 0.1512) + 0.00425;
+    const float t3 = n_dot_v*(roughness*(0.766*n_dot_v + (t1 - 2.56)) + 0.373) + 0.9675;
+    const float scale = saturate(t3) + bias*(-0.413*roughness - 0.991);
     return float2(scale, bias);
 }

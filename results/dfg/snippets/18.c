@@ -2,12 +2,12 @@
 // data: dfg (7b034b9b6a989aa5), seed 1, lgp 0.1.0
 // domain: n_dot_v in [0, 1], roughness in [0, 1]
 // cost: 17 cycles on gcn
-// error: RMSE 0.00658, max 0.06751 on the search split
-//        RMSE 0.00658, max 0.07564 on the validation split
-//        scale: RMSE 0.00684, max 0.04792
-//        bias: RMSE 0.00630, max 0.06751
+// error: RMSE 0.00776, max 0.06818 on the search split
+//        RMSE 0.00782, max 0.08640 on the validation split
+//        scale: RMSE 0.00950, max 0.06818
+//        bias: RMSE 0.00548, max 0.05514
 // finite on every sample of both splits
-// t0 = max(roughness - 0.41*n_dot_v, 0.04); bias = exp2(t0*(n_dot_v - t0*(15.73 - 11.8*t0)) - 0.091 - n_dot_v*(7.8*n_dot_v + 5.9)); t1 = n_dot_v*(roughness*t0 - 0.018); t2 = 0.8845 - 0.96*t1; scale = t2*(t2 + bias*(-25.4*t1 - 1.172)) + 0.1994
+// t0 = 0.4*n_dot_v - 1.63; t1 = roughness*t0 + 0.736; t2 = saturate(n_dot_v + roughness*(0.8*roughness + 0.5) + (0.99*t1 + 0.414 - 0.96*n_dot_v)*max(roughness, 2.82*t0 + 4.662)); bias = t2*(t2 - 2.13) + 1.1305; scale = bias*(3.274 - 4.2*saturate(n_dot_v + 1.2 - 0.8*roughness)) + (saturate(n_dot_v*t1 + 0.875) - 0.0722*roughness)
 #include <math.h>
 
 typedef struct {
@@ -16,12 +16,14 @@ typedef struct {
 } dfg_outputs;
 
 dfg_outputs dfg(float n_dot_v, float roughness) {
-    const float t0 = fmaxf(roughness - 0.41f*n_dot_v, 0.04f);
-    const float t1 = t0*(n_dot_v - t0*(15.73f - 11.8f*t0)) - 0.091f;
-    const float bias = exp2f(t1 - n_dot_v*(7.8f*n_dot_v + 5.9f));
-    const float t2 = n_dot_v*(roughness*t0 - 0.018f);
-    const float t3 = 0.8845f - 0.96f*t2;
-    const float scale = t3*(t3 + bias*(-25.4f*t2 - 1.172f)) + 0.1994f;
+    const float t0 = 0.4f*n_dot_v - 1.63f;
+    const float t1 = roughness*t0 + 0.736f;
+    const float t2 = 0.8f*roughness;
+    const float t3 = (0.99f*t1 + 0.414f - 0.96f*n_dot_v)*fmaxf(roughness, 2.82f*t0 + 4.662f);
+    const float t4 = fminf(fmaxf(n_dot_v + roughness*(t2 + 0.5f) + t3, 0.0f), 1.0f);
+    const float bias = t4*(t4 - 2.13f) + 1.1305f;
+    const float t5 = bias*(3.274f - 4.2f*fminf(fmaxf(n_dot_v + 1.2f - t2, 0.0f), 1.0f));
+    const float scale = t5 + (fminf(fmaxf(n_dot_v*t1 + 0.875f, 0.0f), 1.0f) - 0.0722f*roughness);
     const dfg_outputs result = { scale, bias };
     return result;
 }

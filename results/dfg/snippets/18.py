@@ -2,20 +2,22 @@
 # data: dfg (7b034b9b6a989aa5), seed 1, lgp 0.1.0
 # domain: n_dot_v in [0, 1], roughness in [0, 1]
 # cost: 17 cycles on gcn
-# error: RMSE 0.00658, max 0.06751 on the search split
-#        RMSE 0.00658, max 0.07564 on the validation split
-#        scale: RMSE 0.00684, max 0.04792
-#        bias: RMSE 0.00630, max 0.06751
+# error: RMSE 0.00776, max 0.06818 on the search split
+#        RMSE 0.00782, max 0.08640 on the validation split
+#        scale: RMSE 0.00950, max 0.06818
+#        bias: RMSE 0.00548, max 0.05514
 # finite on every sample of both splits
-# t0 = max(roughness - 0.41*n_dot_v, 0.04); bias = exp2(t0*(n_dot_v - t0*(15.73 - 11.8*t0)) - 0.091 - n_dot_v*(7.8*n_dot_v + 5.9)); t1 = n_dot_v*(roughness*t0 - 0.018); t2 = 0.8845 - 0.96*t1; scale = t2*(t2 + bias*(-25.4*t1 - 1.172)) + 0.1994
+# t0 = 0.4*n_dot_v - 1.63; t1 = roughness*t0 + 0.736; t2 = saturate(n_dot_v + roughness*(0.8*roughness + 0.5) + (0.99*t1 + 0.414 - 0.96*n_dot_v)*max(roughness, 2.82*t0 + 4.662)); bias = t2*(t2 - 2.13) + 1.1305; scale = bias*(3.274 - 4.2*saturate(n_dot_v + 1.2 - 0.8*roughness)) + (saturate(n_dot_v*t1 + 0.875) - 0.0722*roughness)
 import numpy as np
 
 
 def dfg(n_dot_v, roughness):
-    t0 = np.maximum(roughness - 0.41*n_dot_v, 0.04)
-    t1 = t0*(n_dot_v - t0*(15.73 - 11.8*t0)) - 0.091
-    bias = np.exp2(t1 - n_dot_v*(7.8*n_dot_v + 5.9))
-    t2 = n_dot_v*(roughness*t0 - 0.018)
-    t3 = 0.8845 - 0.96*t2
-    scale = t3*(t3 + bias*(-25.4*t2 - 1.172)) + 0.1994
+    t0 = 0.4*n_dot_v - 1.63
+    t1 = roughness*t0 + 0.736
+    t2 = 0.8*roughness
+    t3 = (0.99*t1 + 0.414 - 0.96*n_dot_v)*np.maximum(roughness, 2.82*t0 + 4.662)
+    t4 = np.clip(n_dot_v + roughness*(t2 + 0.5) + t3, 0.0, 1.0)
+    bias = t4*(t4 - 2.13) + 1.1305
+    t5 = np.clip(n_dot_v*t1 + 0.875, 0.0, 1.0) - 0.0722*roughness
+    scale = bias*(3.274 - 4.2*np.clip(n_dot_v + 1.2 - t2, 0.0, 1.0)) + t5
     return scale, bias

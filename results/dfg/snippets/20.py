@@ -2,21 +2,23 @@
 # data: dfg (7b034b9b6a989aa5), seed 1, lgp 0.1.0
 # domain: n_dot_v in [0, 1], roughness in [0, 1]
 # cost: 19 cycles on gcn
-# error: RMSE 0.00580, max 0.05062 on the search split
-#        RMSE 0.00584, max 0.06108 on the validation split
-#        scale: RMSE 0.00675, max 0.04195
-#        bias: RMSE 0.00466, max 0.05062
+# error: RMSE 0.00664, max 0.06383 on the search split
+#        RMSE 0.00672, max 0.09253 on the validation split
+#        scale: RMSE 0.00802, max 0.04898
+#        bias: RMSE 0.00490, max 0.06383
 # finite on every sample of both splits
-# t0 = max(roughness - 0.26*n_dot_v, 0.04); t1 = t0 - 0.8*n_dot_v; bias = exp2(t1*(-1.1 - t0*(12.6 - 10*t1)) - 0.025 - n_dot_v*(9*n_dot_v + 7.03)); t2 = n_dot_v*(t0^2 - 0.019); t3 = 0.861 - 1.14*t2; scale = t3*(min(t3, 0.8425) + bias*(-31*t2 - 1.213)) + 0.2572
+# t0 = n_dot_v + 1.16; t1 = (n_dot_v - 0.4*roughness)*(1.42 - 0.4*t0) - 1.44; t2 = roughness*t1; t3 = t2 + 0.55; t4 = saturate(n_dot_v - 0.73*(t2 + 0.08) + (0.54*t3 + 0.61 - 0.36*t0)*max(roughness, 3.18*t1 + 4.701)); bias = t4*(t4 - 1.997) + 0.9989; scale = bias*(2.644 - 3.6*saturate(t0 - 0.67*roughness)) + (saturate(n_dot_v*t3 + 0.905) - 0.0527*roughness)
 import numpy as np
 
 
 def dfg(n_dot_v, roughness):
-    t0 = np.maximum(roughness - 0.26*n_dot_v, 0.04)
-    t1 = t0 - 0.8*n_dot_v
-    t2 = t1*(-1.1 - t0*(12.6 - 10.0*t1)) - 0.025 - n_dot_v*(9.0*n_dot_v + 7.03)
-    bias = np.exp2(t2)
-    t3 = n_dot_v*(t0*t0 - 0.019)
-    t4 = 0.861 - 1.14*t3
-    scale = t4*(np.minimum(t4, 0.8425) + bias*(-31.0*t3 - 1.213)) + 0.2572
+    t0 = n_dot_v + 1.16
+    t1 = (n_dot_v - 0.4*roughness)*(1.42 - 0.4*t0) - 1.44
+    t2 = roughness*t1
+    t3 = t2 + 0.55
+    t4 = (0.54*t3 + 0.61 - 0.36*t0)*np.maximum(roughness, 3.18*t1 + 4.701)
+    t5 = np.clip(n_dot_v - 0.73*(t2 + 0.08) + t4, 0.0, 1.0)
+    bias = t5*(t5 - 1.997) + 0.9989
+    t6 = bias*(2.644 - 3.6*np.clip(t0 - 0.67*roughness, 0.0, 1.0))
+    scale = t6 + (np.clip(n_dot_v*t3 + 0.905, 0.0, 1.0) - 0.0527*roughness)
     return scale, bias

@@ -2,20 +2,21 @@
 // data: dfg (7b034b9b6a989aa5), seed 1, lgp 0.1.0
 // domain: n_dot_v in [0, 1], roughness in [0, 1]
 // cost: 20 cycles on gcn
-// error: RMSE 0.00571, max 0.04422 on the search split
-//        RMSE 0.00575, max 0.06361 on the validation split
-//        scale: RMSE 0.00680, max 0.04131
-//        bias: RMSE 0.00435, max 0.04422
+// error: RMSE 0.00598, max 0.06006 on the search split
+//        RMSE 0.00605, max 0.10265 on the validation split
+//        scale: RMSE 0.00715, max 0.03615
+//        bias: RMSE 0.00451, max 0.06006
 // finite on every sample of both splits
-// t0 = roughness - 0.25*n_dot_v; t1 = max(t0, 0.03); t2 = max(n_dot_v, roughness) - 0.69*n_dot_v; bias = exp2(t2*(-0.885 - t1*(12.9 - 9.9*t2)) - 0.0527 - n_dot_v*(6.42*n_dot_v + 6.1)); t3 = n_dot_v*(0.02195 - t0*t1); t4 = 1.077*t3 + 0.8722; scale = t4*(min(t4, 0.8558) + bias*(29.37*t3 - 1.2005)) + 0.23349
+// t0 = n_dot_v + 1.1; t1 = (n_dot_v - 0.33*roughness)*(1.76 - 0.5*t0) - 1.57; t2 = roughness*t1; t3 = t2 + 0.49; t4 = saturate(n_dot_v - 0.69*(t2 + 0.1) + (0.52*t3 + 0.645 - 0.37*t0)*max(roughness, 2.62*t1 + 4.196)); bias = t4*(t4 - 1.977) + 0.9783; scale = bias*(2.35 - 3.3*(saturate(t0 - 0.56*roughness) + 0.18*roughness)) + (saturate(n_dot_v*t3 + 0.952) - 0.051*roughness)
 vec2 dfg(float n_dot_v, float roughness) {
-    float t0 = roughness - 0.25*n_dot_v;
-    float t1 = max(t0, 0.03);
-    float t2 = max(n_dot_v, roughness) - 0.69*n_dot_v;
-    float t3 = t2*(-0.885 - t1*(12.9 - 9.9*t2)) - 0.0527 - n_dot_v*(6.42*n_dot_v + 6.1);
-    float bias = exp2(t3);
-    float t4 = n_dot_v*(0.02195 - t0*t1);
-    float t5 = 1.077*t4 + 0.8722;
-    float scale = t5*(min(t5, 0.8558) + bias*(29.37*t4 - 1.2005)) + 0.23349;
+    float t0 = n_dot_v + 1.1;
+    float t1 = (n_dot_v - 0.33*roughness)*(1.76 - 0.5*t0) - 1.57;
+    float t2 = roughness*t1;
+    float t3 = t2 + 0.49;
+    float t4 = (0.52*t3 + 0.645 - 0.37*t0)*max(roughness, 2.62*t1 + 4.196);
+    float t5 = clamp(n_dot_v - 0.69*(t2 + 0.1) + t4, 0.0, 1.0);
+    float bias = t5*(t5 - 1.977) + 0.9783;
+    float t6 = 2.35 - 3.3*(clamp(t0 - 0.56*roughness, 0.0, 1.0) + 0.18*roughness);
+    float scale = bias*t6 + (clamp(n_dot_v*t3 + 0.952, 0.0, 1.0) - 0.051*roughness);
     return vec2(scale, bias);
 }

@@ -2,19 +2,21 @@
 // data: dfg (7b034b9b6a989aa5), seed 1, lgp 0.1.0
 // domain: n_dot_v in [0, 1], roughness in [0, 1]
 // cost: 21 cycles on gcn
-// error: RMSE 0.00553, max 0.05191 on the search split
-//        RMSE 0.00559, max 0.06643 on the validation split
-//        scale: RMSE 0.00646, max 0.04119
-//        bias: RMSE 0.00440, max 0.05191
+// error: RMSE 0.00586, max 0.06058 on the search split
+//        RMSE 0.00593, max 0.08244 on the validation split
+//        scale: RMSE 0.00705, max 0.03405
+//        bias: RMSE 0.00437, max 0.06058
 // finite on every sample of both splits
-// t0 = roughness - 0.74*n_dot_v; t1 = roughness - 0.25*n_dot_v; bias = exp2(min(roughness + t0*(-1.5 - (11.5 - 9*t0)*t1), -0.05) - n_dot_v*(7*n_dot_v + 6.82) - t0); t2 = n_dot_v*(t1*max(t1, 0.04) - 0.023); t3 = 0.872 - 1.08*t2; scale = t3*(min(t3, 0.854) - bias*(28.5*t2 + 1.2)) + 0.2336
+// t0 = n_dot_v + 1.1; t1 = (n_dot_v - 0.344*roughness)*(2.01 - 0.6*t0) - 1.57; t2 = roughness*t1; t3 = t2 + 0.465; t4 = saturate(1.075*n_dot_v - 0.683*(t2 + 0.114) + (0.506*t3 + 0.6727 - 0.4*t0)*max(roughness, 2.465*t1 + 3.945)); bias = t4*(t4 - 1.9564) + 0.95809; scale = bias*(2.0765 - 3.02486*(saturate(t0 - 0.58*roughness) + 0.2097*roughness)) + (saturate(n_dot_v*t3 + 0.9555) - 0.04575*roughness)
 float2 dfg(float n_dot_v, float roughness) {
-    const float t0 = roughness - 0.74*n_dot_v;
-    const float t1 = roughness - 0.25*n_dot_v;
-    const float t2 = min(roughness + t0*(-1.5 - (11.5 - 9.0*t0)*t1), -0.05);
-    const float bias = exp2(t2 - n_dot_v*(7.0*n_dot_v + 6.82) - t0);
-    const float t3 = n_dot_v*(t1*max(t1, 0.04) - 0.023);
-    const float t4 = 0.872 - 1.08*t3;
-    const float scale = t4*(min(t4, 0.854) - bias*(28.5*t3 + 1.2)) + 0.2336;
+    const float t0 = n_dot_v + 1.1;
+    const float t1 = (n_dot_v - 0.344*roughness)*(2.01 - 0.6*t0) - 1.57;
+    const float t2 = roughness*t1;
+    const float t3 = t2 + 0.465;
+    const float t4 = (0.506*t3 + 0.6727 - 0.4*t0)*max(roughness, 2.465*t1 + 3.945);
+    const float t5 = saturate(1.075*n_dot_v - 0.683*(t2 + 0.114) + t4);
+    const float bias = t5*(t5 - 1.9564) + 0.95809;
+    const float t6 = 2.0765 - 3.02486*(saturate(t0 - 0.58*roughness) + 0.2097*roughness);
+    const float scale = bias*t6 + (saturate(n_dot_v*t3 + 0.9555) - 0.04575*roughness);
     return float2(scale, bias);
 }

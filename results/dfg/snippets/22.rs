@@ -2,19 +2,22 @@
 // data: dfg (7b034b9b6a989aa5), seed 1, lgp 0.1.0
 // domain: n_dot_v in [0, 1], roughness in [0, 1]
 // cost: 21 cycles on gcn
-// error: RMSE 0.00553, max 0.05191 on the search split
-//        RMSE 0.00559, max 0.06643 on the validation split
-//        scale: RMSE 0.00646, max 0.04119
-//        bias: RMSE 0.00440, max 0.05191
+// error: RMSE 0.00586, max 0.06058 on the search split
+//        RMSE 0.00593, max 0.08244 on the validation split
+//        scale: RMSE 0.00705, max 0.03405
+//        bias: RMSE 0.00437, max 0.06058
 // finite on every sample of both splits
-// t0 = roughness - 0.74*n_dot_v; t1 = roughness - 0.25*n_dot_v; bias = exp2(min(roughness + t0*(-1.5 - (11.5 - 9*t0)*t1), -0.05) - n_dot_v*(7*n_dot_v + 6.82) - t0); t2 = n_dot_v*(t1*max(t1, 0.04) - 0.023); t3 = 0.872 - 1.08*t2; scale = t3*(min(t3, 0.854) - bias*(28.5*t2 + 1.2)) + 0.2336
+// t0 = n_dot_v + 1.1; t1 = (n_dot_v - 0.344*roughness)*(2.01 - 0.6*t0) - 1.57; t2 = roughness*t1; t3 = t2 + 0.465; t4 = saturate(1.075*n_dot_v - 0.683*(t2 + 0.114) + (0.506*t3 + 0.6727 - 0.4*t0)*max(roughness, 2.465*t1 + 3.945)); bias = t4*(t4 - 1.9564) + 0.95809; scale = bias*(2.0765 - 3.02486*(saturate(t0 - 0.58*roughness) + 0.2097*roughness)) + (saturate(n_dot_v*t3 + 0.9555) - 0.04575*roughness)
 pub fn dfg(n_dot_v: f32, roughness: f32) -> (f32, f32) {
-    let t0 = roughness - 0.74*n_dot_v;
-    let t1 = roughness - 0.25*n_dot_v;
-    let t2 = f32::min(roughness + t0*(-1.5 - (11.5 - 9.0*t0)*t1), -0.05);
-    let bias = f32::exp2(t2 - n_dot_v*(7.0*n_dot_v + 6.82) - t0);
-    let t3 = n_dot_v*(t1*f32::max(t1, 0.04) - 0.023);
-    let t4 = 0.872 - 1.08*t3;
-    let scale = t4*(f32::min(t4, 0.854) - bias*(28.5*t3 + 1.2)) + 0.2336;
+    let t0 = n_dot_v + 1.1;
+    let t1 = (n_dot_v - 0.344*roughness)*(2.01 - 0.6*t0) - 1.57;
+    let t2 = roughness*t1;
+    let t3 = t2 + 0.465;
+    let t4 = (0.506*t3 + 0.6727 - 0.4*t0)*f32::max(roughness, 2.465*t1 + 3.945);
+    let t5 = f32::clamp(1.075*n_dot_v - 0.683*(t2 + 0.114) + t4, 0.0, 1.0);
+    let bias = t5*(t5 - 1.9564) + 0.95809;
+    let t6 = 3.02486*(f32::clamp(t0 - 0.58*roughness, 0.0, 1.0) + 0.2097*roughness);
+    let t7 = f32::clamp(n_dot_v*t3 + 0.9555, 0.0, 1.0) - 0.04575*roughness;
+    let scale = bias*(2.0765 - t6) + t7;
     (scale, bias)
 }

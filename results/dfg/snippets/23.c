@@ -2,12 +2,12 @@
 // data: dfg (7b034b9b6a989aa5), seed 1, lgp 0.1.0
 // domain: n_dot_v in [0, 1], roughness in [0, 1]
 // cost: 22 cycles on gcn
-// error: RMSE 0.00517, max 0.04929 on the search split
-//        RMSE 0.00523, max 0.07288 on the validation split
-//        scale: RMSE 0.00598, max 0.03887
-//        bias: RMSE 0.00422, max 0.04929
+// error: RMSE 0.00568, max 0.05105 on the search split
+//        RMSE 0.00578, max 0.11949 on the validation split
+//        scale: RMSE 0.00686, max 0.03422
+//        bias: RMSE 0.00418, max 0.05105
 // finite on every sample of both splits
-// t0 = roughness - 0.86*n_dot_v; t1 = roughness - 0.255*n_dot_v; bias = exp2(min(t0*(-0.6 - (11.3 - 9*t0)*t1) + min(n_dot_v, 0.08), -0.04) - n_dot_v*(6.5*n_dot_v + 7.1) - t0); t2 = n_dot_v*(0.02 - t1*max(t1, 0.03)); t3 = 1.1*t2 + 0.87; scale = t3*(min(t3, 0.851) - bias*(1.2 - 29*t2)) + 0.2404
+// t0 = n_dot_v + 1.09; t1 = (n_dot_v - 0.66*roughness)*(1.57 - 0.5*t0) - 1.2; t2 = roughness*t1; t3 = t2 + 0.42; t4 = saturate(n_dot_v - 0.81*(t2 + 0.04) + (0.617*t3 + 0.57 - 0.33*t0)*max(roughness, 3.22*(t1 - 0.306*t3) + 4.342)); bias = (t4 - 2.014)*(t4 + 0.013*n_dot_v) + 1.0257; scale = bias*(2.622 - 3.56*(saturate(t0 - 0.53*roughness) + 0.155*roughness)) + (saturate(n_dot_v*t3 + 0.942) - 0.0492*roughness)
 #include <math.h>
 
 typedef struct {
@@ -16,13 +16,17 @@ typedef struct {
 } dfg_outputs;
 
 dfg_outputs dfg(float n_dot_v, float roughness) {
-    const float t0 = roughness - 0.86f*n_dot_v;
-    const float t1 = roughness - 0.255f*n_dot_v;
-    const float t2 = fminf(t0*(-0.6f - (11.3f - 9.0f*t0)*t1) + fminf(n_dot_v, 0.08f), -0.04f);
-    const float bias = exp2f(t2 - n_dot_v*(6.5f*n_dot_v + 7.1f) - t0);
-    const float t3 = n_dot_v*(0.02f - t1*fmaxf(t1, 0.03f));
-    const float t4 = 1.1f*t3 + 0.87f;
-    const float scale = t4*(fminf(t4, 0.851f) - bias*(1.2f - 29.0f*t3)) + 0.2404f;
+    const float t0 = n_dot_v + 1.09f;
+    const float t1 = (n_dot_v - 0.66f*roughness)*(1.57f - 0.5f*t0) - 1.2f;
+    const float t2 = roughness*t1;
+    const float t3 = t2 + 0.42f;
+    const float t4 = fmaxf(roughness, 3.22f*(t1 - 0.306f*t3) + 4.342f);
+    const float t5 = n_dot_v - 0.81f*(t2 + 0.04f) + (0.617f*t3 + 0.57f - 0.33f*t0)*t4;
+    const float t6 = fminf(fmaxf(t5, 0.0f), 1.0f);
+    const float bias = (t6 - 2.014f)*(t6 + 0.013f*n_dot_v) + 1.0257f;
+    const float t7 = fminf(fmaxf(t0 - 0.53f*roughness, 0.0f), 1.0f) + 0.155f*roughness;
+    const float t8 = fminf(fmaxf(n_dot_v*t3 + 0.942f, 0.0f), 1.0f) - 0.0492f*roughness;
+    const float scale = bias*(2.622f - 3.56f*t7) + t8;
     const dfg_outputs result = { scale, bias };
     return result;
 }

@@ -2,19 +2,23 @@
 // data: dfg (7b034b9b6a989aa5), seed 1, lgp 0.1.0
 // domain: n_dot_v in [0, 1], roughness in [0, 1]
 // cost: 22 cycles on gcn
-// error: RMSE 0.00517, max 0.04929 on the search split
-//        RMSE 0.00523, max 0.07288 on the validation split
-//        scale: RMSE 0.00598, max 0.03887
-//        bias: RMSE 0.00422, max 0.04929
+// error: RMSE 0.00568, max 0.05105 on the search split
+//        RMSE 0.00578, max 0.11949 on the validation split
+//        scale: RMSE 0.00686, max 0.03422
+//        bias: RMSE 0.00418, max 0.05105
 // finite on every sample of both splits
-// t0 = roughness - 0.86*n_dot_v; t1 = roughness - 0.255*n_dot_v; bias = exp2(min(t0*(-0.6 - (11.3 - 9*t0)*t1) + min(n_dot_v, 0.08), -0.04) - n_dot_v*(6.5*n_dot_v + 7.1) - t0); t2 = n_dot_v*(0.02 - t1*max(t1, 0.03)); t3 = 1.1*t2 + 0.87; scale = t3*(min(t3, 0.851) - bias*(1.2 - 29*t2)) + 0.2404
+// t0 = n_dot_v + 1.09; t1 = (n_dot_v - 0.66*roughness)*(1.57 - 0.5*t0) - 1.2; t2 = roughness*t1; t3 = t2 + 0.42; t4 = saturate(n_dot_v - 0.81*(t2 + 0.04) + (0.617*t3 + 0.57 - 0.33*t0)*max(roughness, 3.22*(t1 - 0.306*t3) + 4.342)); bias = (t4 - 2.014)*(t4 + 0.013*n_dot_v) + 1.0257; scale = bias*(2.622 - 3.56*(saturate(t0 - 0.53*roughness) + 0.155*roughness)) + (saturate(n_dot_v*t3 + 0.942) - 0.0492*roughness)
 pub fn dfg(n_dot_v: f32, roughness: f32) -> (f32, f32) {
-    let t0 = roughness - 0.86*n_dot_v;
-    let t1 = roughness - 0.255*n_dot_v;
-    let t2 = t0*(-0.6 - (11.3 - 9.0*t0)*t1) + f32::min(n_dot_v, 0.08);
-    let bias = f32::exp2(f32::min(t2, -0.04) - n_dot_v*(6.5*n_dot_v + 7.1) - t0);
-    let t3 = n_dot_v*(0.02 - t1*f32::max(t1, 0.03));
-    let t4 = 1.1*t3 + 0.87;
-    let scale = t4*(f32::min(t4, 0.851) - bias*(1.2 - 29.0*t3)) + 0.2404;
+    let t0 = n_dot_v + 1.09;
+    let t1 = (n_dot_v - 0.66*roughness)*(1.57 - 0.5*t0) - 1.2;
+    let t2 = roughness*t1;
+    let t3 = t2 + 0.42;
+    let t4 = f32::max(roughness, 3.22*(t1 - 0.306*t3) + 4.342);
+    let t5 = n_dot_v - 0.81*(t2 + 0.04) + (0.617*t3 + 0.57 - 0.33*t0)*t4;
+    let t6 = f32::clamp(t5, 0.0, 1.0);
+    let bias = (t6 - 2.014)*(t6 + 0.013*n_dot_v) + 1.0257;
+    let t7 = 3.56*(f32::clamp(t0 - 0.53*roughness, 0.0, 1.0) + 0.155*roughness);
+    let t8 = f32::clamp(n_dot_v*t3 + 0.942, 0.0, 1.0) - 0.0492*roughness;
+    let scale = bias*(2.622 - t7) + t8;
     (scale, bias)
 }

@@ -1,13 +1,13 @@
 // n_dot_v, roughness → scale, bias
 // data: dfg (7b034b9b6a989aa5), seed 1, lgp 0.1.0
 // domain: n_dot_v in [0, 1], roughness in [0, 1]
-// cost: 28 cycles on gcn
-// error: RMSE 0.00498, max 0.08475 on the search split
-//        RMSE 0.00500, max 0.08656 on the validation split
-//        scale: RMSE 0.00567, max 0.03522
-//        bias: RMSE 0.00418, max 0.08475
+// cost: 23 cycles on gcn
+// error: RMSE 0.00547, max 0.04985 on the search split
+//        RMSE 0.00553, max 0.09504 on the validation split
+//        scale: RMSE 0.00643, max 0.04350
+//        bias: RMSE 0.00431, max 0.04985
 // finite on every sample of both splits
-// t0 = 0.755*(roughness + 0.51*n_dot_v); bias = exp2((-6.3*n_dot_v - 5.73)*max(n_dot_v + 0.05, t0) - t0 + 0.26); scale = min(0.7568 - (exp2(max(n_dot_v, 0.7*roughness - 0.0865)*(1.56*roughness - 5.444) - 7*n_dot_v) - 0.1245)*((roughness - 0.7494)*(-1.853*roughness - 2.463 - 7*min(n_dot_v, t0)) - 0.983), 0.9944)
+// t0 = saturate(saturate(roughness*(-0.7*n_dot_v - 0.8) + 1.026 + 1.46*n_dot_v) - 1.15*n_dot_v); t1 = n_dot_v*roughness; t2 = t1*(1.4*roughness - 2.31) - (roughness*(1.12*roughness - 1.869) + 0.991 - 1.24*n_dot_v); t3 = 0.02*((40*t1 + 1.03)*(roughness - 0.438*n_dot_v)) - 0.0156; t4 = saturate(t3 + 0.029*n_dot_v); bias = saturate(t0*(t0 + 3.6*roughness)*(t2^2 + 0.0042)); scale = t4*(t4 - 1.947) + 0.9968 + bias*(-21.3*t3 - 1.338)
 #include <math.h>
 
 typedef struct {
@@ -16,12 +16,15 @@ typedef struct {
 } dfg_outputs;
 
 dfg_outputs dfg(float n_dot_v, float roughness) {
-    const float t0 = 0.755f*(roughness + 0.51f*n_dot_v);
-    const float bias = exp2f((-6.3f*n_dot_v - 5.73f)*fmaxf(n_dot_v + 0.05f, t0) - t0 + 0.26f);
-    const float t1 = fmaxf(n_dot_v, 0.7f*roughness - 0.0865f)*(1.56f*roughness - 5.444f);
-    const float t2 = -1.853f*roughness - 2.463f - 7.0f*fminf(n_dot_v, t0);
-    const float t3 = (exp2f(t1 - 7.0f*n_dot_v) - 0.1245f)*((roughness - 0.7494f)*t2 - 0.983f);
-    const float scale = fminf(0.7568f - t3, 0.9944f);
+    const float t0 = roughness*(-0.7f*n_dot_v - 0.8f) + 1.026f + 1.46f*n_dot_v;
+    const float t1 = fminf(fmaxf(fminf(fmaxf(t0, 0.0f), 1.0f) - 1.15f*n_dot_v, 0.0f), 1.0f);
+    const float t2 = n_dot_v*roughness;
+    const float t3 = roughness*(1.12f*roughness - 1.869f) + 0.991f - 1.24f*n_dot_v;
+    const float t4 = t2*(1.4f*roughness - 2.31f) - t3;
+    const float t5 = 0.02f*((40.0f*t2 + 1.03f)*(roughness - 0.438f*n_dot_v)) - 0.0156f;
+    const float t6 = fminf(fmaxf(t5 + 0.029f*n_dot_v, 0.0f), 1.0f);
+    const float bias = fminf(fmaxf(t1*(t1 + 3.6f*roughness)*(t4*t4 + 0.0042f), 0.0f), 1.0f);
+    const float scale = t6*(t6 - 1.947f) + 0.9968f + bias*(-21.3f*t5 - 1.338f);
     const dfg_outputs result = { scale, bias };
     return result;
 }

@@ -1,20 +1,23 @@
 // n_dot_v, roughness → scale, bias
 // data: dfg (7b034b9b6a989aa5), seed 1, lgp 0.1.0
 // domain: n_dot_v in [0, 1], roughness in [0, 1]
-// cost: 29 cycles on gcn
-// error: RMSE 0.00492, max 0.08449 on the search split
-//        RMSE 0.00493, max 0.08620 on the validation split
-//        scale: RMSE 0.00555, max 0.03029
-//        bias: RMSE 0.00420, max 0.08449
+// cost: 24 cycles on gcn
+// error: RMSE 0.00512, max 0.04708 on the search split
+//        RMSE 0.00519, max 0.09752 on the validation split
+//        scale: RMSE 0.00591, max 0.04537
+//        bias: RMSE 0.00420, max 0.04708
 // finite on every sample of both splits
-// t0 = n_dot_v + 0.05; t1 = 0.757*(roughness + 0.51*n_dot_v); bias = exp2((-6.3*n_dot_v - 5.7)*max(t0, t1) - t1 + 0.258); scale = min(0.7569 - (exp2(max(roughness - 1.6*n_dot_v, 0.12)*(roughness - 3.72) - t0*(12.38 - n_dot_v)) - 0.0611)*((roughness - 0.74)*(-3.16*roughness - 4.94 - 14.7*min(n_dot_v, t1)) - 1.831), 0.9942)
+// t0 = saturate(saturate(roughness*(-n_dot_v - 0.76) + 1.022 + 1.51*n_dot_v) - 1.1*n_dot_v); t1 = n_dot_v*roughness; t2 = t1*(1.65*roughness - 2.61) - (roughness*(1.067*roughness - 1.849) + 0.993 - 1.313*n_dot_v); t3 = 0.01595*((t1*(30*roughness + 34) + 1.25)*(roughness - 0.4145*n_dot_v)) - 0.0139; t4 = saturate(t3 + 0.02734*n_dot_v); bias = saturate(t0*(t0 + 3.4*roughness)*(t2^2 + 0.0065)); scale = t4*(t4 - 1.7214) + 0.99778 + bias*(-22.01*t3 - 1.3175)
 fn dfg(n_dot_v: f32, roughness: f32) -> vec2<f32> {
-    let t0 = n_dot_v + 0.05;
-    let t1 = 0.757*(roughness + 0.51*n_dot_v);
-    let bias = exp2((-6.3*n_dot_v - 5.7)*max(t0, t1) - t1 + 0.258);
-    let t2 = max(roughness - 1.6*n_dot_v, 0.12)*(roughness - 3.72);
-    let t3 = (roughness - 0.74)*(-3.16*roughness - 4.94 - 14.7*min(n_dot_v, t1));
-    let t4 = 0.7569 - (exp2(t2 - t0*(12.38 - n_dot_v)) - 0.0611)*(t3 - 1.831);
-    let scale = min(t4, 0.9942);
+    let t0 = saturate(roughness*(-n_dot_v - 0.76) + 1.022 + 1.51*n_dot_v);
+    let t1 = saturate(t0 - 1.1*n_dot_v);
+    let t2 = n_dot_v*roughness;
+    let t3 = roughness*(1.067*roughness - 1.849) + 0.993 - 1.313*n_dot_v;
+    let t4 = t2*(1.65*roughness - 2.61) - t3;
+    let t5 = (t2*(30.0*roughness + 34.0) + 1.25)*(roughness - 0.4145*n_dot_v);
+    let t6 = 0.01595*t5 - 0.0139;
+    let t7 = saturate(t6 + 0.02734*n_dot_v);
+    let bias = saturate(t1*(t1 + 3.4*roughness)*(t4*t4 + 0.0065));
+    let scale = t7*(t7 - 1.7214) + 0.99778 + bias*(-22.01*t6 - 1.3175);
     return vec2<f32>(scale, bias);
 }

@@ -1,0 +1,31 @@
+# n_dot_v, roughness → scale, bias
+# data: dfg (7b034b9b6a989aa5), seed 1, lgp 0.1.0
+# domain: n_dot_v in [0, 1], roughness in [0, 1]
+# cost: 30 cycles on gcn
+# error: RMSE 0.00400, max 0.06713 on the search split
+#        RMSE 0.00405, max 0.08686 on the validation split
+#        scale: RMSE 0.00430, max 0.03157
+#        bias: RMSE 0.00367, max 0.06713
+# finite on every sample of both splits
+# t0 = saturate(n_dot_v*(1.34 - 2.1*roughness) + 1.035 - 0.32*roughness) - 0.1*n_dot_v; t1 = 0.08 - n_dot_v*roughness; t2 = 1.24*n_dot_v - 1.88; t3 = roughness*t2 + 0.1833; t4 = t3 + n_dot_v*saturate(n_dot_v*(0.636*n_dot_v - 1.8517) + 1.30865); t5 = 0.6486*t2 + 1.27815; t6 = (0.3386*t4 + 1.06247 - 1.554*n_dot_v)*max(roughness, t5) + (n_dot_v - 0.2081*t3 + 0.4488*t5); t7 = (t6 - 2.07367)*(t6 + 0.02464*n_dot_v) + 1.09734; scale = saturate((4.50282 - 5.5*(t0 + 0.113*roughness))*(t7 + 0.06435*t1) + (saturate(n_dot_v*t4 + 0.9941) + roughness*(1.6*saturate(0.137*n_dot_v + (roughness*t1 - 0.03)) - 0.122))); bias = t0*t7
+import numpy as np
+
+
+def dfg(n_dot_v, roughness):
+    t0 = n_dot_v*(1.34 - 2.1*roughness) + 1.035 - 0.32*roughness
+    t1 = np.clip(t0, 0.0, 1.0) - 0.1*n_dot_v
+    t2 = 0.08 - n_dot_v*roughness
+    t3 = 1.24*n_dot_v - 1.88
+    t4 = roughness*t3 + 0.1833
+    t5 = n_dot_v*np.clip(n_dot_v*(0.636*n_dot_v - 1.8517) + 1.30865, 0.0, 1.0)
+    t6 = t4 + t5
+    t7 = 0.6486*t3 + 1.27815
+    t8 = (0.3386*t6 + 1.06247 - 1.554*n_dot_v)*np.maximum(roughness, t7)
+    t9 = t8 + (n_dot_v - 0.2081*t4 + 0.4488*t7)
+    t10 = (t9 - 2.07367)*(t9 + 0.02464*n_dot_v) + 1.09734
+    t11 = 1.6*np.clip(0.137*n_dot_v + (roughness*t2 - 0.03), 0.0, 1.0) - 0.122
+    t12 = (4.50282 - 5.5*(t1 + 0.113*roughness))*(t10 + 0.06435*t2)
+    t13 = t12 + (np.clip(n_dot_v*t6 + 0.9941, 0.0, 1.0) + roughness*t11)
+    scale = np.clip(t13, 0.0, 1.0)
+    bias = t1*t10
+    return scale, bias

@@ -1,0 +1,162 @@
+//! What is done to a formula before it is shown.
+
+use super::Problem;
+use super::front::FrontMember;
+use crate::cost::CostScratch;
+use crate::dataset::Column;
+use crate::eval::{Arithmetic, Bounds};
+use crate::fit::{Fitter, Measure, Rounds, Stop, minimax, shorten, shorten_minimax};
+use crate::num::{Interval, enclose};
+use crate::op::{MAX_ARITY, Op};
+use crate::program::{Arg, Draft, Names, Program, effective};
+use crate::simplify::{Simplifier, tidy};
+use rayon::prelude::*;
+
+/// Fits of the front go on until nothing is gained.
+const TO_CONVERGENCE: Stop = Stop { max_steps: 200, min_gain: 1e-7 };
+
+/// The share by which constants of fewer digits may raise the sum of squares: half of it in RMSE.
+const SHORTENING_ALLOWANCE: f64 = 0.004;
+
+/// The same for the maximum error.
+const MINIMAX_ALLOWANCE: f64 = 0.01;
+
+/// Fits to convergence, shortens the constants, and drops what the constants or the domain have
+/// made superfluous. Nothing where the formula is not finite on every sample.
+pub(super) fn polish(
+    draft: &Draft,
+    problem: &Problem,
+    names: &Names,
+    measure: Measure,
+) -> Option<FrontMember> {
+    let mut fitter = Fitter::default();
+    let mut draft = draft.clone();
+    fitter.fit(&mut draft, &problem.all, TO_CONVERGENCE);
+    if measure == Measure::Max {
+        let mut samples = problem.all.clone();
+        minimax(&mut fitter, &mut draft, &mut samples, Rounds::TO_CONVERGENCE);
+        shorten_minimax(&mut fitter, &mut draft, &samples, MINIMAX_ALLOWANCE);
+    } else {
+        shorten(&mut fitter, &mut draft, &problem.all, SHORTENING_ALLOWANCE);
+    }
+    let mut simple = Draft::default();
+    Simplifier::default().simplify(&draft, &mut simple);
+    let finished = [draft, simple].into_iter().filter_map(|draft| {
+        let active = without_idle(Program::verify(draft).ok()?, &problem.dataset.inputs);
+        let program = effective(&tidy(&active));
+        Some(FrontMember::new(program, problem.dataset, problem.profile, names))
+    });
+    // The simpler form, unless rounding has made it worse.
+    let error = |member: &FrontMember| (member.cost, member.search_error().of(measure) * WORSE);
+    finished.filter(|member| member.score.is_finite()).reduce(|plain, simple| {
+        let ((cost, error), simple_error) = (error(&plain), simple.search_error().of(measure));
+        if simple.cost <= cost && simple_error <= error { simple } else { plain }
+    })
+}
+
+/// Of many drafts those that a few rounds of reweighting bring near the least maximum error at their
+/// cost.
+pub(super) fn promising(drafts: Vec<Draft>, problem: &Problem) -> Vec<Draft> {
+    let mut tried: Vec<(f64, f64, Draft)> = drafts
+        .into_par_iter()
+        .map_init(
+            || (Fitter::default(), problem.all.clone(), CostScratch::default()),
+            |(fitter, samples, scratch), mut draft| {
+                fitter.fit(&mut draft, &problem.all, FIRST_LOOK.steps);
+                let error = minimax(fitter, &mut draft, samples, FIRST_LOOK);
+                (problem.cost(&draft, scratch), error, draft)
+            },
+        )
+        .collect();
+    tried.sort_by(|a, b| a.0.total_cmp(&b.0).then(a.1.total_cmp(&b.1)));
+    let mut least = f64::INFINITY;
+    tried.retain(|(_, error, _)| {
+        let near = *error < least * PROMISING;
+        least = least.min(*error);
+        near
+    });
+    tried.into_iter().map(|(_, _, draft)| draft).collect()
+}
+
+const FIRST_LOOK: Rounds =
+    Rounds { most: 20, patience: 6, steps: Stop { max_steps: 3, min_gain: 1e-4 } };
+
+/// Times the least error found so far.
+const PROMISING: f64 = 1.1;
+
+/// What the simpler form may lose by rounding.
+const WORSE: f64 = 1.0005;
+
+/// Without those of `abs`, `saturate`, `min` and `max` that, by interval arithmetic, do nothing
+/// anywhere in the inputs' domain.
+fn without_idle(program: Program, inputs: &[Column]) -> Program {
+    let mut draft = program.clone().into_draft();
+    let domain = |column: &Column| enclose(column.domain[0], column.domain[1]);
+    let inputs: Vec<Interval> = inputs.iter().map(domain).collect();
+    let mut results: Vec<Interval> = Vec::new();
+    let mut moved: Vec<Arg> = Vec::new();
+    for i in 0..draft.instrs.len() {
+        for arg in draft.instrs[i].args_mut() {
+            redirect(arg, &moved);
+        }
+        let instr = draft.instrs[i];
+        let bounds = |arg: Arg| match arg {
+            Arg::Input(i) => inputs[usize::from(i)],
+            Arg::Const(i) => Bounds.constant(draft.consts[usize::from(i)]),
+            Arg::Result(i) => results[usize::from(i)],
+        };
+        let mut arguments = [bounds(instr.args()[0]); MAX_ARITY];
+        for (to, &arg) in arguments.iter_mut().zip(instr.args()) {
+            *to = bounds(arg);
+        }
+        results.push(Bounds.apply(instr.op(), arguments));
+        let idle = passes_through(instr.op(), arguments).map(|place| instr.args()[place]);
+        moved.push(idle.unwrap_or(Arg::Result(i as u16)));
+    }
+    draft.outputs.iter_mut().for_each(|output| redirect(output, &moved));
+    Program::verify(draft).unwrap_or(program)
+}
+
+fn redirect(arg: &mut Arg, moved: &[Arg]) {
+    if let Arg::Result(i) = *arg {
+        *arg = moved[usize::from(i)];
+    }
+}
+
+/// The place of the argument that the operation's result always is.
+fn passes_through(op: Op, [a, b, ..]: [Interval; MAX_ARITY]) -> Option<usize> {
+    if a.may_be_nan() || a.is_empty() || (op.arity() > 1 && (b.may_be_nan() || b.is_empty())) {
+        return None;
+    }
+    let below = |x: Interval, y: Interval| x.high() <= y.low();
+    match op {
+        Op::Abs => (a.low() >= 0.0).then_some(0),
+        Op::Saturate => (a.low() >= 0.0 && a.high() <= 1.0).then_some(0),
+        Op::Min if below(a, b) => Some(0),
+        Op::Min if below(b, a) => Some(1),
+        Op::Max if below(b, a) => Some(0),
+        Op::Max if below(a, b) => Some(1),
+        _ => None,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::program::{parse, print};
+
+    #[test]
+    fn what_does_nothing_in_the_domain_is_left_out() {
+        let names = Names::new(["x"], ["y"]);
+        let inputs = [Column { name: "x".into(), unit: "1".into(), domain: [0.0, 1.0] }];
+        for (text, left) in [
+            ("y = abs(x) + saturate(x)", "y = x + x"),
+            ("y = abs(x - 0.5)", "y = abs(x - 0.5)"),
+            ("y = max(x, -0.5)*saturate(2*x)", "y = x*saturate(2*x)"),
+            ("y = min(abs(x + 1), 0.75)", "y = 0.75"),
+        ] {
+            let program = without_idle(parse(text, &names).unwrap(), &inputs);
+            assert_eq!(print(&effective(&program), &names), left);
+        }
+    }
+}
