@@ -34,7 +34,12 @@ pub fn lambda<T: Real>(cosine: T, alpha: T) -> T {
 
 /// Masking, `1 / (1 + Λ)`; 0 at the horizon.
 pub fn g1<T: Real>(cosine: T, alpha: T) -> T {
-    T::ONE / (T::ONE + lambda(cosine, alpha))
+    g1_of_slope(slope(cosine, alpha))
+}
+
+/// [`g1`] as a function of [`slope`] alone.
+pub fn g1_of_slope<T: Real>(slope: T) -> T {
+    T::ONE / (T::ONE + lambda_of_slope(slope))
 }
 
 /// Masking and shadowing as if independent: `G1(v) G1(l)`.

@@ -14,20 +14,18 @@
 //! stiff (a narrow lobe, grazing light) lies at an end of one of them. u is
 //! carried with its complement, which keeps the far tail of a narrow lobe.
 
-use super::grid::{area_weights, cell_centres, nodes_between};
-use super::{Choices, Error, Parameter, Recipe, Target};
-use crate::dataset::{Column, Dataset, Split, domain_of};
+use super::table::{Axis, Sample, Table};
+use super::{Choices, Error, Parameter, Progress, Recipe, Target, points};
+use crate::dataset::Dataset;
 use crate::microfacet::{fresnel, ggx};
 use crate::quadrature::{Abscissa, TanhSinh};
-use rayon::prelude::*;
 use std::f64::consts::{FRAC_PI_2, PI};
-use std::sync::atomic::{AtomicUsize, Ordering};
 
 /// Largest estimated error that [`generate`] accepts.
 pub const ALLOWED_ERROR: f64 = 1e-7;
 const TOLERANCE: f64 = 1e-9;
 /// In place of n·v = 0, where W is undefined.
-const GRAZING: f32 = 0.001;
+const GRAZING: f64 = 0.001;
 const CORRELATED: &str = "correlated";
 const SEPARABLE: &str = "separable";
 const ROUGHNESS_SQUARED: &str = "roughness^2";
@@ -50,13 +48,9 @@ pub(super) const TARGET: Target = Target {
             default: ROUGHNESS_SQUARED,
             choices: Choices::OneOf(&[ROUGHNESS_SQUARED, ROUGHNESS_FOURTH]),
         },
-        Parameter {
-            name: "points",
-            description: "points along each axis of the search grid",
-            default: "64",
-            choices: Choices::Count { least: 2, most: 1024 },
-        },
+        points("64", 1024),
     ],
+    generate,
 };
 
 /// How masking of v and shadowing of l combine.
@@ -183,87 +177,23 @@ fn integrate_normals(rule: &TanhSinh, view: &View, from: Normal, to: Normal) -> 
 ///
 /// # Errors
 /// An estimated error above [`ALLOWED_ERROR`].
-pub fn generate(
-    recipe: &Recipe,
-    progress: &(dyn Fn(usize, usize) + Sync),
-) -> Result<Dataset, Error> {
-    let points = recipe.get("points").and_then(|text| text.parse().ok()).unwrap_or(64);
-    let centres = cell_centres(points);
-    let roughness = nodes_between(points);
-    let mut n_dot_v = roughness.clone();
-    n_dot_v[0] = GRAZING;
-    let tick = Tick { progress, done: AtomicUsize::new(0), total: points + n_dot_v.len() };
-    let (mut search, search_error) = sample(recipe, &centres, &centres, &tick)?;
-    search.grid = vec![points; 2];
-    let (mut validation, validation_error) = sample(recipe, &n_dot_v, &roughness, &tick)?;
-    validation.grid = vec![n_dot_v.len(), roughness.len()];
-    validation.weights = area_weights(&n_dot_v, &roughness);
-    let unit = |name: &str, domain| Column { name: name.into(), unit: "1".into(), domain };
-    let dataset = Dataset {
-        name: TARGET.name.into(),
-        recipe: format!(
-            "{recipe} // estimated error below {:.0e} before rounding to f32",
-            power_of_ten_above(search_error.max(validation_error))
-        ),
-        inputs: vec![unit("n_dot_v", [0.0, 1.0]), unit("roughness", [0.0, 1.0])],
-        outputs: vec![
-            unit("scale", domain_of(&search, &validation, 2)),
-            unit("bias", domain_of(&search, &validation, 3)),
-        ],
-        search,
-        validation,
-    };
-    dataset.validate()?;
-    Ok(dataset)
-}
-
-struct Tick<'a> {
-    progress: &'a (dyn Fn(usize, usize) + Sync),
-    done: AtomicUsize,
-    total: usize,
-}
-
-impl Tick<'_> {
-    fn one_more(&self) {
-        let done = self.done.fetch_add(1, Ordering::Relaxed) + 1;
-        (self.progress)(done, self.total);
-    }
-}
-
-/// The terms at every pair, and the largest estimated error.
-fn sample(
-    recipe: &Recipe,
-    n_dot_v: &[f32],
-    roughness: &[f32],
-    tick: &Tick,
-) -> Result<(Split, f64), Error> {
+pub fn generate(recipe: &Recipe, progress: Progress) -> Result<Dataset, Error> {
     let rule = TanhSinh::new();
     let masking = match recipe.get("masking") {
         Some(SEPARABLE) => Masking::Separable,
         _ => Masking::Correlated,
     };
-    let rows: Vec<Vec<Dfg>> = n_dot_v
-        .par_iter()
-        .map(|&nv| {
-            let row = roughness
-                .iter()
-                .map(|&r| integrate(&rule, f64::from(nv), alpha(recipe, f64::from(r)), masking));
-            let row = row.collect();
-            tick.one_more();
-            row
-        })
-        .collect();
-    let mut columns = vec![Vec::new(); 4];
-    let mut largest_error = 0.0_f64;
-    for (&nv, row) in n_dot_v.iter().zip(&rows) {
-        for (&r, dfg) in roughness.iter().zip(row) {
-            check_accuracy(nv, r, dfg)?;
-            largest_error = largest_error.max(dfg.error);
-            let values = [nv, r, dfg.scale as f32, dfg.bias as f32];
-            columns.iter_mut().zip(values).for_each(|(column, value)| column.push(value));
-        }
-    }
-    Ok((Split { columns, ..Split::default() }, largest_error))
+    let table = Table {
+        recipe,
+        axes: &[Axis { least: Some(GRAZING), ..Axis::unit("n_dot_v") }, Axis::unit("roughness")],
+        outputs: &[("scale", "1"), ("bias", "1")],
+        points: recipe.count("points"),
+        allowed_error: ALLOWED_ERROR,
+    };
+    table.dataset(progress, |point| {
+        let dfg = integrate(&rule, point[0], alpha(recipe, point[1]), masking);
+        Sample { values: [dfg.scale, dfg.bias], error: dfg.error }
+    })
 }
 
 fn alpha(recipe: &Recipe, roughness: f64) -> f64 {
@@ -272,20 +202,4 @@ fn alpha(recipe: &Recipe, roughness: f64) -> f64 {
         Some(ROUGHNESS_FOURTH) => square * square,
         _ => square,
     }
-}
-
-fn check_accuracy(n_dot_v: f32, roughness: f32, dfg: &Dfg) -> Result<(), Error> {
-    if dfg.error <= ALLOWED_ERROR {
-        return Ok(());
-    }
-    Err(Error::Accuracy {
-        target: TARGET.name.into(),
-        point: format!("n_dot_v = {n_dot_v}, roughness = {roughness}"),
-        error: dfg.error,
-        allowed: ALLOWED_ERROR,
-    })
-}
-
-fn power_of_ten_above(value: f64) -> f64 {
-    10.0_f64.powf(value.max(1e-16).log10().ceil())
 }

@@ -4,10 +4,15 @@
 //! A [`Recipe`] names a target and its parameters; [`generate`] makes the
 //! dataset from it.
 
+pub mod beckmann_g1;
 pub mod dfg;
 mod error;
-mod grid;
+pub mod fresnel;
+pub mod ggx_d;
 mod recipe;
+pub mod smith_g1;
+pub mod smith_g2;
+mod table;
 
 pub use error::Error;
 pub use recipe::Recipe;
@@ -23,6 +28,19 @@ pub struct Target {
     /// Names of the columns, `inputs → outputs`.
     pub columns: &'static str,
     pub parameters: &'static [Parameter],
+    generate: fn(&Recipe, Progress) -> Result<Dataset, Error>,
+}
+
+/// Called with the work units done so far and their total, from any thread.
+pub type Progress<'a> = &'a (dyn Fn(usize, usize) + Sync);
+
+const fn points(default: &'static str, most: usize) -> Parameter {
+    Parameter {
+        name: "points",
+        description: "points along each axis of the search grid",
+        default,
+        choices: Choices::Count { least: 2, most },
+    }
 }
 
 /// What may be chosen about a target.
@@ -47,22 +65,22 @@ pub enum Choices {
 
 /// All targets.
 pub fn targets() -> &'static [Target] {
-    &[dfg::TARGET]
+    &[
+        dfg::TARGET,
+        smith_g1::TARGET,
+        smith_g2::TARGET,
+        beckmann_g1::TARGET,
+        fresnel::TARGET,
+        ggx_d::TARGET,
+    ]
 }
 
 /// Makes the dataset a recipe describes, on all of rayon's threads, the same
 /// at any number of them. It is named after its target; give it another name
-/// before saving it under another one. `progress` is called with the work units done so far
-/// and their total, from any thread.
+/// before saving it under another one.
 ///
 /// # Errors
 /// A ground truth whose estimated error is larger than its target allows.
-pub fn generate(
-    recipe: &Recipe,
-    progress: &(dyn Fn(usize, usize) + Sync),
-) -> Result<Dataset, Error> {
-    match recipe.target().name {
-        name if name == dfg::TARGET.name => dfg::generate(recipe, progress),
-        name => Err(Error::unknown_target(name)),
-    }
+pub fn generate(recipe: &Recipe, progress: Progress) -> Result<Dataset, Error> {
+    (recipe.target().generate)(recipe, progress)
 }

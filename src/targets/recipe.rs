@@ -90,6 +90,11 @@ impl Recipe {
         let index = self.target.parameters.iter().position(|known| known.name == parameter)?;
         self.values.get(index).map(String::as_str)
     }
+
+    /// The value of a parameter that is a [`Choices::Count`]; 0 of any other.
+    pub(super) fn count(&self, parameter: &str) -> usize {
+        self.get(parameter).and_then(|text| text.parse().ok()).unwrap_or(0)
+    }
 }
 
 /// RON that [`Recipe::parse`] reads back.

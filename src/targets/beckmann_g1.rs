@@ -1,0 +1,37 @@
+//! Smith's masking of Beckmann facets, whose error function Walter replaces by a
+//! rational one.
+//!
+//! Definition: [`beckmann::g1_of_slope`] over `a = 1 / (α tan θ)`, the variable of
+//! Walter et al. ("Microfacet Models for Refraction through Rough Surfaces", 2007,
+//! eqs. 26 and 27), up to 1.6, from where on the approximation is 1.
+
+use super::table::{Axis, Sample, Table};
+use super::{Error, Progress, Recipe, Target, points};
+use crate::dataset::Dataset;
+use crate::microfacet::beckmann;
+
+/// Of Λ for slopes up to 1.6, by the tests of [`beckmann`].
+const ERROR: f64 = 1e-12;
+
+pub(super) const TARGET: Target = Target {
+    name: "beckmann_g1",
+    description: "Smith masking of Beckmann facets, exact, over a = 1 / (alpha tan(theta))",
+    columns: "a → g1",
+    parameters: &[points("256", 4096)],
+    generate,
+};
+
+/// Makes the dataset on a in [0, 1.6].
+///
+/// # Errors
+/// None but a bug.
+pub fn generate(recipe: &Recipe, progress: Progress) -> Result<Dataset, Error> {
+    let table = Table {
+        recipe,
+        axes: &[Axis { domain: [0.0, 1.6], ..Axis::unit("a") }],
+        outputs: &[("g1", "1")],
+        points: recipe.count("points"),
+        allowed_error: ERROR,
+    };
+    table.dataset(progress, |at| Sample { values: [beckmann::g1_of_slope(at[0])], error: ERROR })
+}

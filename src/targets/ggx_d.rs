@@ -1,0 +1,83 @@
+//! The GGX distribution relative to its peak, `π α² D`: a formula that is known,
+//! and that single precision spoils unless it is written with care.
+//!
+//! The textbook's `n·h²(α² - 1) + 1` cancels where the lobe is narrow. Rows are
+//! spread over the lobe of each width: n·h at equal steps of the fraction
+//! `t² / (1 + t²)`, t = tan θ / α, of the normals nearer to n, α at equal ratios
+//! from .001 to 1. The truth is that of n·h and α as rounded to f32.
+
+use super::table::{Axis, Spacing};
+use super::{Error, Progress, Recipe, Target, points};
+use crate::dataset::{Column, Dataset, Split, domain_of};
+use crate::microfacet::{ggx, sampling};
+use std::f64::consts::PI;
+
+const ALPHA: Axis = Axis {
+    name: "alpha",
+    unit: "1",
+    domain: [0.001, 1.0],
+    spacing: Spacing::Logarithmic,
+    least: None,
+};
+
+pub(super) const TARGET: Target = Target {
+    name: "ggx_d",
+    description: "GGX distribution over its peak, pi alpha^2 D, in narrow lobes: stiff",
+    columns: "n_dot_h, alpha → d_over_peak",
+    parameters: &[points("64", 1024)],
+    generate,
+};
+
+/// `π α² D`, in [0, 1], of `n_dot_h` in [0, 1] and `alpha` in (0, 1].
+pub fn over_peak(n_dot_h: f64, alpha: f64) -> f64 {
+    ggx::distribution(n_dot_h, alpha) * PI * alpha * alpha
+}
+
+/// Makes the dataset. Search split at the centres of cells of the lobe and of
+/// log α; validation split at about a hundred nodes along each, from the peak to
+/// the horizon and from end to end, weighted by the area of their cells.
+///
+/// # Errors
+/// None but a bug.
+pub fn generate(recipe: &Recipe, progress: Progress) -> Result<Dataset, Error> {
+    let points = recipe.count("points");
+    let centre = |i: usize| (i as f64 + 0.5) / points as f64;
+    let centres: Vec<f64> = (0..points).map(centre).collect();
+    let nodes: Vec<f64> = (0..=100).map(|k| f64::from(k) / 100.0).collect();
+    let search = rows(&centres);
+    progress(1, 2);
+    let mut validation = rows(&nodes);
+    let length = |at: f64| if at == 0.0 || at == 1.0 { 0.5 } else { 1.0 };
+    let areas = nodes.iter().flat_map(|a| nodes.iter().map(|b| (length(*a) * length(*b)) as f32));
+    validation.weights = areas.collect();
+    progress(2, 2);
+    let unit = |name: &str, domain| Column { name: name.into(), unit: "1".into(), domain };
+    let dataset = Dataset {
+        name: TARGET.name.into(),
+        recipe: format!("{recipe} // estimated error below 1e-13 before rounding to f32"),
+        inputs: vec![unit("n_dot_h", [0.0, 1.0]), unit(ALPHA.name, ALPHA.domain)],
+        outputs: vec![unit("d_over_peak", domain_of(&search, &validation, 2))],
+        search,
+        validation,
+    };
+    dataset.validate()?;
+    Ok(dataset)
+}
+
+/// Every pair of a width and a place in its lobe, both given in [0, 1].
+fn rows(places: &[f64]) -> Split {
+    let mut columns = vec![Vec::new(); 3];
+    for &width in places {
+        let alpha = ALPHA.at(width);
+        for &place in places {
+            let n_dot_h =
+                if place < 1.0 { sampling::ggx([0.0, place], alpha.into()).z } else { 0.0 };
+            let n_dot_h = n_dot_h as f32;
+            let truth = over_peak(n_dot_h.into(), alpha.into()) as f32;
+            for (column, value) in columns.iter_mut().zip([n_dot_h, alpha, truth]) {
+                column.push(value);
+            }
+        }
+    }
+    Split { columns, ..Split::default() }
+}

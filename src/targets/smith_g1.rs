@@ -1,0 +1,35 @@
+//! Smith's masking of GGX facets, which shaders approximate by Schlick's form
+//! (Karis, "Real Shading in Unreal Engine 4", 2013) to save the root.
+//!
+//! Definition: [`ggx::g1`] (Walter et al. 2007, eq. 34), over the width itself.
+
+use super::table::{Axis, Sample, Table};
+use super::{Error, Progress, Recipe, Target, points};
+use crate::dataset::Dataset;
+use crate::microfacet::ggx;
+
+/// In place of n·v = 0, where g1 is 0 for all α but 0.
+const GRAZING: f64 = 0.001;
+
+pub(super) const TARGET: Target = Target {
+    name: "smith_g1",
+    description: "Smith masking of GGX facets, exact",
+    columns: "n_dot_v, alpha → g1",
+    parameters: &[points("64", 1024)],
+    generate,
+};
+
+/// Makes the dataset on [0, 1]², with n·v = .001 in place of 0.
+///
+/// # Errors
+/// None but a bug.
+pub fn generate(recipe: &Recipe, progress: Progress) -> Result<Dataset, Error> {
+    let table = Table {
+        recipe,
+        axes: &[Axis { least: Some(GRAZING), ..Axis::unit("n_dot_v") }, Axis::unit("alpha")],
+        outputs: &[("g1", "1")],
+        points: recipe.count("points"),
+        allowed_error: f64::EPSILON,
+    };
+    table.dataset(progress, |at| Sample { values: [ggx::g1(at[0], at[1])], error: f64::EPSILON })
+}

@@ -1,0 +1,51 @@
+//! Smith's masking and shadowing of GGX facets, which shaders approximate by the
+//! product of two Schlick forms or, correlated, by Hammon's linear interpolation.
+//!
+//! Definition: [`ggx::g2_correlated`] and [`ggx::g2_separable`] (Heitz, 2014, eqs.
+//! 98 and 99), over the width itself.
+
+use super::table::{Axis, Sample, Table};
+use super::{Choices, Error, Parameter, Progress, Recipe, Target, points};
+use crate::dataset::Dataset;
+use crate::microfacet::ggx;
+
+/// In place of a cosine of 0, where g2 is 0 for all α but 0.
+const GRAZING: f64 = 0.001;
+const CORRELATED: &str = "correlated";
+const SEPARABLE: &str = "separable";
+
+pub(super) const TARGET: Target = Target {
+    name: "smith_g2",
+    description: "Smith masking and shadowing of GGX facets, exact",
+    columns: "n_dot_l, n_dot_v, alpha → g2",
+    parameters: &[
+        Parameter {
+            name: "masking",
+            description: "height-correlated or separable",
+            default: CORRELATED,
+            choices: Choices::OneOf(&[CORRELATED, SEPARABLE]),
+        },
+        points("16", 64),
+    ],
+    generate,
+};
+
+/// Makes the dataset on [0, 1]³, with cosines of .001 in place of 0.
+///
+/// # Errors
+/// None but a bug.
+pub fn generate(recipe: &Recipe, progress: Progress) -> Result<Dataset, Error> {
+    let g2 = match recipe.get("masking") {
+        Some(SEPARABLE) => ggx::g2_separable,
+        _ => ggx::g2_correlated,
+    };
+    let cosine = |name| Axis { least: Some(GRAZING), ..Axis::unit(name) };
+    let table = Table {
+        recipe,
+        axes: &[cosine("n_dot_l"), cosine("n_dot_v"), Axis::unit("alpha")],
+        outputs: &[("g2", "1")],
+        points: recipe.count("points"),
+        allowed_error: f64::EPSILON,
+    };
+    table.dataset(progress, |at| Sample { values: [g2(at[0], at[1], at[2])], error: f64::EPSILON })
+}

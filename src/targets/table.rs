@@ -1,0 +1,291 @@
+//! From a function of a few inputs to its dataset.
+
+use super::{Error, Progress, Recipe};
+use crate::dataset::{Column, Dataset, Split, domain_of};
+use rayon::prelude::*;
+use std::sync::atomic::{AtomicUsize, Ordering};
+
+/// An input of a target and where it is sampled.
+pub(super) struct Axis {
+    pub name: &'static str,
+    pub unit: &'static str,
+    pub domain: [f64; 2],
+    pub spacing: Spacing,
+    /// In place of the domain's low end, where the target has no value.
+    pub least: Option<f64>,
+}
+
+/// In what its samples are equidistant.
+#[derive(Clone, Copy, PartialEq)]
+pub(super) enum Spacing {
+    Linear,
+    Logarithmic,
+}
+
+impl Axis {
+    /// A dimensionless input on [0, 1].
+    pub(super) fn unit(name: &'static str) -> Axis {
+        Axis { name, unit: "1", domain: [0.0, 1.0], spacing: Spacing::Linear, least: None }
+    }
+
+    /// Where `u` of [0, 1] comes to lie.
+    pub(super) fn at(&self, u: f64) -> f32 {
+        let [low, high] = self.domain;
+        let value = match self.spacing {
+            Spacing::Linear => low + u * (high - low),
+            Spacing::Logarithmic => low * (high / low).powf(u),
+        };
+        value as f32
+    }
+
+    /// A coordinate whose differences are the axis' lengths.
+    fn measure(&self, value: f32) -> f64 {
+        match self.spacing {
+            Spacing::Linear => f64::from(value),
+            Spacing::Logarithmic => f64::from(value).ln(),
+        }
+    }
+
+    /// Centres of `points` equal cells.
+    fn cell_centres(&self, points: usize) -> Vec<f32> {
+        (0..points).map(|i| self.at((i as f64 + 0.5) / points as f64)).collect()
+    }
+
+    /// Equidistant nodes from end to end, none of them among the centres.
+    fn nodes(&self, intervals: usize) -> Vec<f32> {
+        let node = |k: usize| self.at(k as f64 / intervals as f64);
+        let mut nodes: Vec<f32> = (0..=intervals).map(node).collect();
+        if let Some(least) = self.least {
+            nodes[0] = least as f32;
+        }
+        nodes
+    }
+
+    /// The length each node stands for (trapezoidal rule), scaled to mean 1.
+    fn lengths(&self, nodes: &[f32]) -> Vec<f64> {
+        let last = nodes.len().saturating_sub(1);
+        let node = |index: usize| self.measure(nodes[index]);
+        let lengths: Vec<f64> = (0..nodes.len())
+            .map(|i| 0.5 * (node((i + 1).min(last)) - node(i.saturating_sub(1))))
+            .collect();
+        let mean = lengths.iter().sum::<f64>() / lengths.len() as f64;
+        lengths.iter().map(|length| length / mean).collect()
+    }
+}
+
+/// About as many intervals as asked for, whose ends no centre of `points`
+/// cells meets: k/100 cannot meet those of 4m cells, and k/n with n odd none,
+/// whose denominators are even.
+fn intervals_between(points: usize, about: usize) -> usize {
+    match about {
+        100 if points.is_multiple_of(4) => 100,
+        odd if odd % 2 == 1 => odd,
+        even => even + 1,
+    }
+}
+
+/// What a target is as a table.
+pub(super) struct Table<'a> {
+    pub recipe: &'a Recipe,
+    /// The first varies slowest.
+    pub axes: &'a [Axis],
+    /// Names and units.
+    pub outputs: &'a [(&'static str, &'static str)],
+    /// Points along each axis of the search grid.
+    pub points: usize,
+    /// Largest estimated error that is accepted.
+    pub allowed_error: f64,
+}
+
+/// The values at a point, and the estimated absolute error of any.
+pub(super) struct Sample<const N: usize> {
+    pub values: [f64; N],
+    pub error: f64,
+}
+
+impl Table<'_> {
+    /// Search split at the cell centres of a regular grid, unweighted;
+    /// validation split at the nodes of another, denser one, edges included,
+    /// weighted by area (trapezoidal, mean 1). No point is in both.
+    ///
+    /// # Errors
+    /// An estimated error above the allowed one.
+    pub(super) fn dataset<const N: usize>(
+        &self,
+        progress: Progress,
+        sample: impl Fn(&[f64]) -> Sample<N> + Sync,
+    ) -> Result<Dataset, Error> {
+        let about = match self.axes.len() {
+            1 => 1000,
+            2 => 100,
+            _ => 21,
+        };
+        let intervals = intervals_between(self.points, about);
+        let along = |points: &dyn Fn(&Axis) -> Vec<f32>| -> Vec<Vec<f32>> {
+            self.axes.iter().map(points).collect()
+        };
+        let centres = along(&|axis| axis.cell_centres(self.points));
+        let nodes = along(&|axis| axis.nodes(intervals));
+        let tick = Tick { progress, done: AtomicUsize::new(0), total: self.points + intervals + 1 };
+        let (search, search_error) = self.split(&centres, &sample, &tick)?;
+        let (mut validation, validation_error) = self.split(&nodes, &sample, &tick)?;
+        validation.weights = self.area_weights(&nodes);
+        let inputs = self.axes.iter().map(|axis| Column {
+            name: axis.name.into(),
+            unit: axis.unit.into(),
+            domain: axis.domain,
+        });
+        let outputs = self.outputs.iter().zip(self.axes.len()..);
+        let outputs = outputs.map(|(&(name, unit), index)| Column {
+            name: name.into(),
+            unit: unit.into(),
+            domain: domain_of(&search, &validation, index),
+        });
+        let dataset = Dataset {
+            name: self.recipe.target().name.into(),
+            recipe: format!(
+                "{} // estimated error below {:.0e} before rounding to f32",
+                self.recipe,
+                power_of_ten_above(search_error.max(validation_error))
+            ),
+            inputs: inputs.collect(),
+            outputs: outputs.collect(),
+            search,
+            validation,
+        };
+        dataset.validate()?;
+        Ok(dataset)
+    }
+
+    /// The function on a full grid, and the largest estimated error.
+    fn split<const N: usize>(
+        &self,
+        along: &[Vec<f32>],
+        sample: &(impl Fn(&[f64]) -> Sample<N> + Sync),
+        tick: &Tick,
+    ) -> Result<(Split, f64), Error> {
+        let (slowest, faster) = (&along[0], points_of_grid(&along[1..]));
+        let slices: Vec<Vec<Sample<N>>> = slowest
+            .par_iter()
+            .map(|&first| {
+                let slice = faster.iter().map(|rest| {
+                    let point: Vec<f64> =
+                        std::iter::once(&first).chain(rest).copied().map(f64::from).collect();
+                    sample(&point)
+                });
+                let slice = slice.collect();
+                tick.one_more();
+                slice
+            })
+            .collect();
+        let points = points_of_grid(along);
+        let mut columns = vec![Vec::with_capacity(points.len()); self.axes.len() + N];
+        let mut largest_error = 0.0_f64;
+        for (point, sample) in points.iter().zip(slices.iter().flatten()) {
+            self.check_accuracy(point, sample.error)?;
+            largest_error = largest_error.max(sample.error);
+            let row = point.iter().copied().chain(sample.values.map(|value| value as f32));
+            columns.iter_mut().zip(row).for_each(|(column, value)| column.push(value));
+        }
+        let grid = along.iter().map(Vec::len).collect();
+        Ok((Split { columns, grid, ..Split::default() }, largest_error))
+    }
+
+    fn area_weights(&self, along: &[Vec<f32>]) -> Vec<f32> {
+        let lengths = self.axes.iter().zip(along).map(|(axis, nodes)| axis.lengths(nodes));
+        let areas = lengths.fold(vec![1.0], |areas: Vec<f64>, lengths| {
+            areas.iter().flat_map(|area| lengths.iter().map(move |length| area * length)).collect()
+        });
+        areas.into_iter().map(|area| area as f32).collect()
+    }
+
+    fn check_accuracy(&self, point: &[f32], error: f64) -> Result<(), Error> {
+        // An error that is no number is refused, too.
+        if error <= self.allowed_error {
+            return Ok(());
+        }
+        let place = self.axes.iter().zip(point).map(|(axis, at)| format!("{} = {at}", axis.name));
+        Err(Error::Accuracy {
+            target: self.recipe.target().name.into(),
+            point: place.collect::<Vec<_>>().join(", "),
+            error,
+            allowed: self.allowed_error,
+        })
+    }
+}
+
+/// Every combination of one value an axis, the last axis varying fastest.
+fn points_of_grid(along: &[Vec<f32>]) -> Vec<Vec<f32>> {
+    along.iter().fold(vec![Vec::new()], |points, values| {
+        let longer = |point: &Vec<f32>, &value: &f32| {
+            let mut longer = point.clone();
+            longer.push(value);
+            longer
+        };
+        points.iter().flat_map(|point| values.iter().map(move |v| longer(point, v))).collect()
+    })
+}
+
+struct Tick<'a> {
+    progress: Progress<'a>,
+    done: AtomicUsize,
+    total: usize,
+}
+
+impl Tick<'_> {
+    fn one_more(&self) {
+        let done = self.done.fetch_add(1, Ordering::Relaxed) + 1;
+        (self.progress)(done, self.total);
+    }
+}
+
+fn power_of_ten_above(value: f64) -> f64 {
+    10.0_f64.powf(value.max(1e-16).log10().ceil())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const DISTANCE: Axis = Axis {
+        name: "distance",
+        unit: "1",
+        domain: [0.25, 4.0],
+        spacing: Spacing::Logarithmic,
+        least: None,
+    };
+
+    #[test]
+    fn nodes_are_never_cell_centres() {
+        let axis = Axis::unit("x");
+        for points in 1..=1024 {
+            let centres = axis.cell_centres(points);
+            for about in [20, 21, 100] {
+                let nodes = axis.nodes(intervals_between(points, about));
+                assert!(centres.iter().all(|centre| !nodes.contains(centre)), "{points}");
+                assert_eq!([nodes[0], nodes[nodes.len() - 1]], [0.0, 1.0]);
+            }
+        }
+    }
+
+    #[test]
+    fn edges_weigh_half_and_corners_a_quarter() {
+        let axes = [Axis::unit("x"), DISTANCE];
+        let recipe = Recipe::new("dfg").unwrap();
+        let table =
+            Table { recipe: &recipe, axes: &axes, outputs: &[], points: 64, allowed_error: 0.0 };
+        let nodes: Vec<_> = axes.iter().map(|axis| axis.nodes(100)).collect();
+        let weights = table.area_weights(&nodes);
+        let inside = f64::from(weights[50 * 101 + 50]);
+        assert!((f64::from(weights[50]) / inside - 0.5).abs() < 1e-6);
+        assert!((f64::from(weights[0]) / inside - 0.25).abs() < 1e-6);
+        let mean = weights.iter().copied().map(f64::from).sum::<f64>() / weights.len() as f64;
+        assert!((mean - 1.0).abs() < 1e-7);
+    }
+
+    #[test]
+    fn logarithmic_axes_have_equal_ratios() {
+        let nodes = DISTANCE.nodes(4);
+        assert_eq!(nodes, [0.25, 0.5, 1.0, 2.0, 4.0]);
+    }
+}
