@@ -9,6 +9,7 @@ pub mod dfg;
 mod error;
 pub mod fresnel;
 pub mod ggx_d;
+pub mod hammon;
 mod recipe;
 pub mod smith_g1;
 pub mod smith_g2;
@@ -72,6 +73,7 @@ pub fn targets() -> &'static [Target] {
         beckmann_g1::TARGET,
         fresnel::TARGET,
         ggx_d::TARGET,
+        hammon::TARGET,
     ]
 }
 
