@@ -1,12 +1,12 @@
 //! The search as a library: what it finds is what its numbers say, and a seed repeats it.
 
 use lgp::cost::Profile;
-use lgp::dataset::Dataset;
+use lgp::dataset::{Column, Dataset, Split};
 use lgp::eval::{Evaluator, Samples, Score, Tape};
 use lgp::fit::{Fitter, Stop};
 use lgp::grammar::Grammar;
 use lgp::program::{Names, Program, Scope, parse, parse_template};
-use lgp::search::{Front, Problem, Search, Settings};
+use lgp::search::{Front, FrontMember, Problem, Requirement, Search, Settings, Transform};
 
 fn dataset(name: &str, outputs: &[&str]) -> Dataset {
     let path = format!("{}/datasets/{name}.bin", env!("CARGO_MANIFEST_DIR"));
@@ -160,4 +160,71 @@ fn scale_may_depend_on_bias() {
     let front = search(&data, "shader", 6, Settings::default());
     assert!(front.members.iter().any(|member| member.formula.contains("bias")));
     assert_eq!(data.names(), Names::new(inputs, ["scale".to_owned()]));
+}
+
+/// A search of a few generations for `bias` alone, as a front.
+fn constrained(settings: Settings) -> Front {
+    search(&dataset("dfg", &["bias"]), "shader", 12, settings)
+}
+
+#[test]
+fn every_formula_is_as_required() {
+    let names = Names::new(["n_dot_v", "roughness"], ["bias"]);
+    let texts = ["range=0..1", "bias.falling=n_dot_v", "uses=exp2", "uses=roughness"];
+    let requirements: Vec<Requirement> =
+        texts.iter().map(|text| Requirement::parse(text, &names).unwrap()).collect();
+    let settings = Settings { max_cost: 20.0, ..Settings::default() };
+    let free = constrained(settings.clone());
+    let bound = constrained(Settings { requirements, ..settings });
+    assert!(bound.members.len() > 3);
+    let value = |member: &FrontMember, n_dot_v: f32, roughness: f32| {
+        member.program.evaluate(&[n_dot_v, roughness])[0]
+    };
+    let falls = |member: &FrontMember| {
+        let grid = (0..33).flat_map(|i| (0..33).map(move |j| (i as f32 / 33.0, j as f32 / 33.0)));
+        grid.into_iter().all(|(n, r)| {
+            let (here, further) = (value(member, n, r), value(member, n + 1.0 / 33.0, r));
+            (0.0..=1.0).contains(&here) && further <= here + 1e-4
+        })
+    };
+    assert!(bound.members.iter().all(|member| {
+        member.formula.contains("exp2") && member.formula.contains("roughness") && falls(member)
+    }));
+    assert!(!free.members.iter().all(falls), "the requirements change nothing");
+}
+
+#[test]
+fn ends_are_met() {
+    let xs: Vec<f32> = (0..=200).map(|i| i as f32 / 200.0).collect();
+    let column = |name: &str| Column { name: name.into(), unit: "1".into(), domain: [0.0, 1.0] };
+    let ys = xs.iter().map(|x| x.powf(2.2)).collect();
+    let split = Split { columns: vec![xs, ys], ..Split::default() };
+    let data = Dataset {
+        name: "gamma".into(),
+        recipe: "x^2.2".into(),
+        inputs: vec![column("x")],
+        outputs: vec![column("y")],
+        search: split.clone(),
+        validation: split,
+    };
+    let requirements = vec![Requirement::parse("ends=x", &data.names()).unwrap()];
+    let settings = Settings { max_cost: 8.0, requirements, ..Settings::default() };
+    let front = search(&data, "shader", 10, settings);
+    assert!(!front.members.is_empty());
+    for member in front.members {
+        for x in [0.0, 1.0] {
+            let y = member.program.evaluate(&[x])[0];
+            assert!((y - x).abs() <= 1e-5, "{}: {x} → {y}", member.formula);
+        }
+    }
+}
+
+#[test]
+fn a_transformed_output_ends_in_the_inverse() {
+    let settings =
+        Settings { max_cost: 20.0, transforms: vec![Some(Transform::Log2)], ..Settings::default() };
+    for member in constrained(settings).members {
+        let last = member.formula.rsplit("bias = ").next().unwrap();
+        assert!(last.starts_with("exp2(") || last.parse::<f32>().is_ok(), "{}", member.formula);
+    }
 }

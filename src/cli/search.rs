@@ -6,7 +6,11 @@ use crate::fit::Measure;
 use crate::grammar::Grammar;
 use crate::program::{Draft, parse};
 use crate::report::table::{Published, front_table};
-use crate::search::{Front, FrontMember, MemberRecord, Problem, Run, Search, Settings, TracePoint};
+use crate::search::{
+    Front, FrontMember, MemberRecord, Problem, Requirement, Run, Search, Settings, TracePoint,
+    Transform,
+};
+use crate::suggest::did_you_mean;
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 use std::io::IsTerminal;
 use std::path::{Path, PathBuf};
@@ -30,7 +34,8 @@ pub struct Args {
     /// What it costs: a built-in GPU profile, or a .ron file
     #[arg(long, value_name = "P", default_value = "gcn")]
     gpu: String,
-    /// How long to search, as in 60s, 10m [default: 60s, unless --generations is given]
+    /// How long to search, as in 60s, 10m [default: until little
+    /// improves, 60s at most; unless --generations is given]
     #[arg(long, value_parser = duration::parse)]
     time: Option<Duration>,
     /// Stop after N generations: with the same seed the same front, whatever the threads
@@ -43,6 +48,14 @@ pub struct Args {
     /// What is made small: rmse, max, weighted (by the dataset's weights) or relative
     #[arg(long, value_name = "MEASURE", default_value_t = Measure::Rmse)]
     loss: Measure,
+    /// What every formula must be: range=0..1, rising=INPUT, falling=INPUT, ends=INPUT (exact where
+    /// an input's domain ends), uses=OPERATION or INPUT; `bias.range=0..1` is for one output
+    #[arg(long, value_name = "CONDITION", value_delimiter = ',')]
+    require: Vec<String>,
+    /// Search by way of a function of an output, rcp, log2 or sqrt, the error measured on the
+    /// output itself
+    #[arg(long, value_name = "OUTPUT=F", value_delimiter = ',')]
+    transform: Vec<String>,
     /// Populations that evolve apart (part of what a seed repeats)
     #[arg(long, value_name = "N", default_value_t = 8)]
     #[arg(value_parser = clap::value_parser!(u16).range(1..=256))]
@@ -78,6 +91,8 @@ pub fn run(args: &Args, common: &Common) -> Result<(), Failure> {
         islands: args.islands.into(),
         max_cost: args.max_cost,
         measure: args.loss,
+        requirements: requirements(args, &dataset)?,
+        transforms: transforms(&args.transform, &dataset)?,
         ..Settings::default()
     };
     let (mut search, before) = if args.resume {
@@ -130,6 +145,38 @@ fn guesses(texts: &[String], dataset: &Dataset) -> Result<Vec<Draft>, Failure> {
     texts.iter().map(|text| Ok(parse(text, &names)?.into_draft())).collect()
 }
 
+fn requirements(args: &Args, dataset: &Dataset) -> Result<Vec<Requirement>, Failure> {
+    let names = dataset.names();
+    let read = |text: &String| {
+        Requirement::parse(text, &names)
+            .map_err(|reason| Failure::usage(format!("--require {reason}")))
+    };
+    let requirements: Vec<Requirement> = args.require.iter().map(read).collect::<Result<_, _>>()?;
+    let ends = requirements.iter().any(|one| matches!(one, Requirement::Ends { .. }));
+    if ends && args.loss == Measure::Relative {
+        let message = "--require ends=… goes with --loss rmse, max or weighted, not relative";
+        return Err(Failure::usage(message));
+    }
+    Ok(requirements)
+}
+
+fn transforms(texts: &[String], dataset: &Dataset) -> Result<Vec<Option<Transform>>, Failure> {
+    let outputs = dataset.names().outputs;
+    let mut transforms = vec![None; outputs.len()];
+    for text in texts {
+        let usage = |reason: String| Failure::usage(format!("--transform {reason}"));
+        let (name, function) = text
+            .split_once('=')
+            .ok_or_else(|| usage(format!("{text}: give OUTPUT=F, as in norm=rcp")))?;
+        let place = outputs.iter().position(|output| output == name).ok_or_else(|| {
+            let meant = did_you_mean(name, outputs.iter().map(String::as_str));
+            usage(format!("{text}: there is no output `{name}`{meant}"))
+        })?;
+        transforms[place] = Some(function.parse().map_err(usage)?);
+    }
+    Ok(transforms)
+}
+
 /// The incumbents that define every output, scored.
 pub(super) fn published(
     path: &Path,
@@ -167,7 +214,7 @@ fn resumed(
     if !same {
         let path = folder.join("run.ron");
         let message = format!(
-            "{}: the run there has other settings; give the same --seed, --grammar, --gpu, --loss, --max-cost and --islands, or another --out",
+            "{}: the run there has other settings; give the same --seed, --grammar, --gpu, --loss, --require, --transform, --max-cost and --islands, or another --out",
             path.display()
         );
         return Err(Failure::new(Exit::Input, anyhow::Error::msg(message)));
@@ -199,6 +246,8 @@ fn evolve(
 ) -> Result<f64, Failure> {
     let default = args.generations.is_none().then_some(Duration::from_secs(60));
     let time = args.time.or(default);
+    let mut progress_made =
+        (args.time.is_none() && args.generations.is_none()).then(Improvement::default);
     let bar = live_front(common);
     let start = Instant::now();
     let seconds = || before + start.elapsed().as_secs_f64();
@@ -216,10 +265,34 @@ fn evolve(
             (None, None) => 0.0,
         };
         show_progress(&bar, &point, progress);
+        let stalled = progress_made.as_mut().is_some_and(|improvement| improvement.stalled(&point));
         partial.record(point, search, problem.dataset)?;
+        if stalled {
+            break;
+        }
     }
     bar.finish_and_clear();
     Ok(seconds())
+}
+
+/// When a search without a budget last became better.
+#[derive(Default)]
+struct Improvement {
+    hypervolume: f64,
+    seconds: f64,
+}
+
+impl Improvement {
+    /// A hypervolume larger by this share is an improvement.
+    const ENOUGH: f64 = 1e-3;
+
+    /// Whether nothing has improved for long: ten seconds, and a third of the time.
+    fn stalled(&mut self, point: &TracePoint) -> bool {
+        if point.hypervolume > self.hypervolume * (1.0 + Improvement::ENOUGH) {
+            *self = Improvement { hypervolume: point.hypervolume, seconds: point.seconds };
+        }
+        point.seconds - self.seconds > (point.seconds / 3.0).max(10.0)
+    }
 }
 
 fn live_front(common: &Common) -> ProgressBar {

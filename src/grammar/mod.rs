@@ -5,7 +5,7 @@ pub(crate) mod file;
 pub use file::FileError;
 
 use crate::op::Op;
-use crate::program::Draft;
+use crate::program::{Arg, Draft};
 use serde::Deserialize;
 use std::collections::BTreeMap;
 
@@ -31,6 +31,8 @@ pub struct Grammar {
     pub max_instructions: usize,
     /// Cycles that an operation is charged beyond what it costs, to discourage it.
     pub penalties: Vec<(Op, f64)>,
+    /// How many of an operation may stand inside one another at most.
+    pub nesting: Vec<(Op, usize)>,
 }
 
 #[derive(Deserialize)]
@@ -42,6 +44,8 @@ struct File {
     max_instructions: usize,
     #[serde(default)]
     penalties: BTreeMap<String, f64>,
+    #[serde(default)]
+    nesting: BTreeMap<String, usize>,
 }
 
 impl Grammar {
@@ -68,6 +72,8 @@ impl Grammar {
         if !(1..=MAX_INSTRUCTIONS).contains(&file.max_instructions) {
             return Err(refuse(format!("`max_instructions` must be 1 to {MAX_INSTRUCTIONS}")));
         }
+        let nesting: Result<Vec<(Op, usize)>, String> =
+            file.nesting.iter().map(|(name, &most)| Ok((file::operation(name)?, most))).collect();
         let positive = |value: f64| value > 0.0 && value.is_finite();
         Ok(Grammar {
             name: name.to_owned(),
@@ -75,6 +81,24 @@ impl Grammar {
             operations: named_operations(file.operations, positive).map_err(refuse)?,
             max_instructions: file.max_instructions,
             penalties: named_operations(file.penalties, |value| value >= 0.0).map_err(refuse)?,
+            nesting: nesting.map_err(refuse)?,
+        })
+    }
+
+    /// Whether no operation stands inside its like more often than it may: `exp2(a + exp2(b))` has
+    /// two `exp2` inside one another.
+    pub fn allows_nesting(&self, draft: &Draft) -> bool {
+        self.nesting.iter().all(|&(op, most)| {
+            let mut depths: Vec<usize> = Vec::with_capacity(draft.instrs.len());
+            draft.instrs.iter().all(|instr| {
+                let depth = |arg: &Arg| match arg {
+                    Arg::Result(i) => depths[usize::from(*i)],
+                    _ => 0,
+                };
+                let inside = instr.args().iter().map(depth).max().unwrap_or(0);
+                depths.push(inside + usize::from(instr.op() == op));
+                depths[depths.len() - 1] <= most
+            })
         })
     }
 
@@ -100,4 +124,25 @@ fn named_operations(
     }
     operations.sort_by_key(|(op, _)| *op);
     Ok(operations)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::program::{Names, parse};
+
+    #[test]
+    fn nesting_counts_operations_inside_their_like() {
+        let text = "(operations: {\"exp2\": 1}, max_instructions: 8, nesting: {\"exp2\": 1})";
+        let grammar = Grammar::parse("nested.ron", text).unwrap();
+        let names = Names::new(["x"], ["y"]);
+        let allowed = |text| grammar.allows_nesting(&parse(text, &names).unwrap());
+        assert!(allowed("y = exp2(x) + exp2(2*x)"));
+        assert!(allowed("t = exp2(x); y = t*t"));
+        assert!(!allowed("y = exp2(x + exp2(x))"));
+        assert!(
+            Grammar::parse("n.ron", &text.replace("nesting: {\"exp2\"", "nesting: {\"ex2\""))
+                .is_err()
+        );
+    }
 }

@@ -83,6 +83,9 @@ impl Island {
         for _ in 0..settings.candidates {
             self.counts.considered += 1;
             self.conceive(&mut rng, problem);
+            for (output, transform) in problem.transforms() {
+                transform.undo(&mut self.workshop.child, output);
+            }
             self.consider(problem);
         }
     }
@@ -125,6 +128,10 @@ impl Island {
             self.counts.seen += 1;
             return;
         }
+        if !problem.admits(candidate) {
+            self.counts.inadmissible += 1;
+            return;
+        }
         let admission = self.population.admission(cost);
         let subset = &problem.subset;
         let scale = 1.0 / subset.total_weight();
@@ -143,13 +150,19 @@ impl Island {
             self.counts.no_better += 1;
             return;
         }
+        if !problem.checks.hold(candidate, &mut fitter.evaluator) {
+            self.counts.unfulfilled += 1;
+            return;
+        }
         self.counts.admitted += 1;
         let newcomer = Individual { draft: candidate.clone(), cost, loss, hash };
         if self.population.offer(newcomer) && loss < self.archive.best_loss(cost) * SUBSET_TOLERANCE
         {
             self.counts.fitted_on_all += 1;
             let loss = fitter.fit(candidate, &problem.all, ALL_SAMPLES) * problem.scale();
-            self.archive.offer(Member { cost, loss, draft: candidate.clone() });
+            if problem.checks.hold(candidate, &mut fitter.evaluator) {
+                self.archive.offer(Member { cost, loss, draft: candidate.clone() });
+            }
         }
     }
 

@@ -11,12 +11,16 @@ mod merge;
 mod polish;
 mod population;
 mod record;
+mod require;
+mod transform;
 mod vary;
 
 pub use census::{Census, Recurring};
 pub use front::{Front, FrontMember};
 pub use merge::{Incompatible, merge};
 pub use record::{MemberRecord, RecordError, Run, TRACE_COSTS, TracePoint, trace_csv};
+pub use require::Requirement;
+pub use transform::Transform;
 
 use crate::archive::Archive;
 use crate::cost::{CostScratch, Profile};
@@ -27,6 +31,7 @@ use crate::grammar::Grammar;
 use crate::program::{Constants, Draft, structural_hash};
 use island::Island;
 use rayon::prelude::*;
+use require::{Checks, with_ends};
 use serde::{Deserialize, Serialize};
 use std::collections::HashSet;
 
@@ -48,6 +53,10 @@ pub struct Settings {
     pub subset: usize,
     /// What is made small.
     pub measure: Measure,
+    /// What every formula must be.
+    pub requirements: Vec<Requirement>,
+    /// By output: the function of it that is searched for; where there are fewer, the output itself.
+    pub transforms: Vec<Option<Transform>>,
 }
 
 impl Default for Settings {
@@ -61,6 +70,8 @@ impl Default for Settings {
             migration_interval: 20,
             subset: 256,
             measure: Measure::Rmse,
+            requirements: Vec::new(),
+            transforms: Vec::new(),
         }
     }
 }
@@ -72,6 +83,8 @@ pub struct Problem<'a> {
     pub grammar: &'a Grammar,
     pub profile: &'a Profile,
     measure: Measure,
+    checks: Checks,
+    transforms: Vec<Option<Transform>>,
     all: Samples,
     subset: Samples,
 }
@@ -88,15 +101,30 @@ impl<'a> Problem<'a> {
         settings: &Settings,
     ) -> Problem<'a> {
         let inputs = dataset.inputs.len();
-        let rows = spread_rows(dataset.search.rows(), settings.subset);
+        let split = with_ends(dataset, &settings.requirements);
+        let mut rows = spread_rows(dataset.search.rows(), settings.subset);
+        rows.extend(dataset.search.rows() as u32..split.rows() as u32);
+        // The ends count by weight.
+        let measure = match split.rows() > dataset.search.rows() {
+            true => Measure::Weighted,
+            false => settings.measure,
+        };
         Problem {
             dataset,
             grammar,
             profile,
             measure: settings.measure,
-            all: settings.measure.all_samples(&dataset.search, inputs),
-            subset: settings.measure.samples(&dataset.search, inputs, &rows),
+            checks: Checks::new(&settings.requirements, dataset),
+            transforms: settings.transforms.clone(),
+            all: measure.all_samples(&split, inputs),
+            subset: measure.samples(&split, inputs, &rows),
         }
+    }
+
+    /// The outputs that are searched for through a function of them.
+    fn transforms(&self) -> impl Iterator<Item = (usize, Transform)> + '_ {
+        let each = self.transforms.iter().enumerate();
+        each.filter_map(|(output, transform)| Some((output, (*transform)?)))
     }
 
     /// Cycles and penalties.
@@ -136,12 +164,16 @@ pub struct Counts {
     pub too_dear: u64,
     /// Of a structure that was fitted before.
     pub seen: u64,
-    /// Constants fitted on the subset: the sum of the following four.
+    /// Not built as required, or nested deeper than the grammar allows.
+    pub inadmissible: u64,
+    /// Constants fitted on the subset: the sum of the following five.
     pub fitted: u64,
     pub not_finite: u64,
     /// Given up after the first steps of fitting.
     pub hopeless: u64,
     pub no_better: u64,
+    /// Good enough, its values not as required.
+    pub unfulfilled: u64,
     pub admitted: u64,
     /// Of those admitted, the ones fitted on all samples, since the archive may want them.
     pub fitted_on_all: u64,
@@ -157,6 +189,8 @@ impl Counts {
         self.not_finite += other.not_finite;
         self.hopeless += other.hopeless;
         self.no_better += other.no_better;
+        self.inadmissible += other.inadmissible;
+        self.unfulfilled += other.unfulfilled;
         self.admitted += other.admitted;
         self.fitted_on_all += other.fitted_on_all;
     }

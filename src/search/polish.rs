@@ -48,7 +48,9 @@ pub(super) fn polish(
     });
     // The simpler form, unless rounding has made it worse.
     let error = |member: &FrontMember| (member.cost, member.search_error().of(measure) * WORSE);
-    finished.filter(|member| member.score.is_finite()).reduce(|plain, simple| {
+    let shown =
+        finished.filter(|member| member.score.is_finite() && problem.accepts(&member.program));
+    shown.reduce(|plain, simple| {
         let ((cost, error), simple_error) = (error(&plain), simple.search_error().of(measure));
         if simple.cost <= cost && simple_error <= error { simple } else { plain }
     })
