@@ -47,7 +47,7 @@ struct Args {
     /// Search nothing: only make the tables and pictures of what is there
     #[arg(long)]
     tables: bool,
-    /// Search nothing: write the datasets to this folder, for other programs
+    /// Search nothing: write the datasets to this folder, their search splits as CSV, too
     #[arg(long, value_name = "DIR")]
     export: Option<PathBuf>,
 }
@@ -73,6 +73,7 @@ fn main() -> Result<(), Box<dyn Error>> {
         std::fs::create_dir_all(folder)?;
         for case in &cases {
             case.dataset.save(&folder.join(format!("{}.bin", case.name)))?;
+            std::fs::write(folder.join(format!("{}.csv", case.name)), csv(&case.dataset))?;
         }
         return Ok(());
     }
@@ -84,6 +85,18 @@ fn main() -> Result<(), Box<dyn Error>> {
         }
     }
     summary::write(&args.out, &cases)
+}
+
+/// The search split, a column for each input and output.
+fn csv(dataset: &Dataset) -> String {
+    let names = dataset.names();
+    let mut text = [names.inputs, names.outputs].concat().join(",") + "\n";
+    for row in 0..dataset.search.rows() {
+        let cells: Vec<String> =
+            dataset.search.columns.iter().map(|column| column[row].to_string()).collect();
+        text += &(cells.join(",") + "\n");
+    }
+    text
 }
 
 /// All datasets: those of `datasets/dfg.bin`, and the bench's own.
