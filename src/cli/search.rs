@@ -60,6 +60,9 @@ pub struct Args {
     #[arg(long, value_name = "N", default_value_t = 8)]
     #[arg(value_parser = clap::value_parser!(u16).range(1..=256))]
     islands: u16,
+    /// Try all formulas of at most C cycles first, if they are few enough
+    #[arg(long, value_name = "C", default_value_t = 1.0)]
+    exhaustive: f64,
     /// A formula to start from, over the dataset's columns; may be given more than once
     #[arg(long, value_name = "FORMULA")]
     guess: Vec<String>,
@@ -103,6 +106,7 @@ pub fn run(args: &Args, common: &Common) -> Result<(), Failure> {
     run_folder::create(&folder)?;
     let problem = Problem::new(&dataset, &grammar, &profile, search.settings());
     if !args.resume {
+        search.enumerate(&problem, args.exhaustive);
         search.settle(&guesses, &problem);
     }
     let mut partial = PartialRun::new(&folder, args.resume)?;
@@ -126,6 +130,7 @@ pub fn run(args: &Args, common: &Common) -> Result<(), Failure> {
         generations: search.generation(),
         seconds,
         counts: search.counts(),
+        enumeration: search.enumeration(),
         sources: Vec::new(),
     };
     partial.finish(&run, &front, &minimax, &incumbents, &search, &dataset)?;
@@ -351,6 +356,12 @@ fn show(
             run.seconds,
             folder.display()
         );
+        if let Some(enumeration) = run.enumeration {
+            eprintln!(
+                "all {} structures of at most {} cycles were tried",
+                enumeration.structures, enumeration.cost
+            );
+        }
     }
     Ok(())
 }

@@ -98,6 +98,7 @@ mod tests {
             threads: 1,
             generations: seed,
             seconds: 0.5,
+            enumeration: None,
             counts: Counts { considered: 10, ..Counts::default() },
             sources: Vec::new(),
         };

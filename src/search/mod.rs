@@ -5,6 +5,7 @@
 //! generations, in the islands' order. So the number of threads changes nothing but the time.
 
 mod census;
+mod enumerate;
 mod front;
 mod island;
 mod merge;
@@ -16,6 +17,7 @@ mod transform;
 mod vary;
 
 pub use census::{Census, Recurring};
+pub use enumerate::Enumeration;
 pub use front::{Front, FrontMember};
 pub use merge::{Incompatible, merge};
 pub use record::{MemberRecord, RecordError, Run, TRACE_COSTS, TracePoint, trace_csv};
@@ -203,12 +205,13 @@ pub struct Search {
     generation: u64,
     islands: Vec<Island>,
     archive: Archive,
+    enumeration: Option<Enumeration>,
 }
 
 impl Search {
     pub fn new(settings: Settings) -> Search {
         let islands = (0..settings.islands).map(|i| Island::new(i, &settings)).collect();
-        Search { settings, generation: 0, islands, archive: Archive::default() }
+        Search { settings, generation: 0, islands, archive: Archive::default(), enumeration: None }
     }
 
     /// Generations that are done.

@@ -1,7 +1,7 @@
 //! What a run leaves on disk, and how it is read back: `run.ron`, `front.json`, `trace.csv`,
 //! `checkpoint.bin`.
 
-use super::{Counts, Front, FrontMember, Search, Settings};
+use super::{Counts, Enumeration, Front, FrontMember, Search, Settings};
 use crate::dataset::{Column, Dataset, replace_file};
 use crate::eval::{OutputError, Score};
 use crate::fit::Measure;
@@ -32,6 +32,9 @@ pub struct Run {
     pub generations: u64,
     pub seconds: f64,
     pub counts: Counts,
+    /// All programs of the lowest costs, where they are few enough.
+    #[serde(default)]
+    pub enumeration: Option<Enumeration>,
     /// The runs that this is the union of; none for a search.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub sources: Vec<Run>,

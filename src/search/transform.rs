@@ -71,7 +71,7 @@ mod tests {
         for (transform, wrapped) in [
             (Transform::Rcp, "y = rcp(x + 1)"),
             (Transform::Log2, "y = exp2(x + 1)"),
-            (Transform::Sqrt, "y = (x + 1)^2"),
+            (Transform::Sqrt, "t0 = x + 1; y = t0^2"),
         ] {
             let mut draft = parse("y = x + 1", &names).unwrap().into_draft();
             transform.undo(&mut draft, 0);

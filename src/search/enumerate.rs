@@ -1,0 +1,234 @@
+//! The shortest programs, all of them: the front at the lowest costs is then not a matter of luck.
+//!
+//! From every program without instructions, an instruction is inserted at every edge in every way that
+//! the grammar has, again and again, until nothing new of the cost comes about. Programs that are alike
+//! but for their constants are one; its constants are fitted from several starts. So the front is
+//! absolute up to local minima of the fits, and up to what simplification makes unreachable by single
+//! insertions.
+
+use super::vary::{insertions, random_constant};
+use super::{Problem, Search};
+use crate::archive::Member;
+use crate::cost::CostScratch;
+use crate::fit::{Fitter, Stop};
+use crate::program::{Arg, Constants, Draft, structural_hash};
+use crate::simplify::Simplifier;
+use rand::SeedableRng;
+use rand_chacha::ChaCha8Rng;
+use rayon::prelude::*;
+use serde::{Deserialize, Serialize};
+use std::collections::HashSet;
+
+/// Fits of each structure, from different constants.
+const STARTS: u64 = 4;
+
+const ON_SUBSET: Stop = Stop { max_steps: 20, min_gain: 1e-3 };
+const ON_ALL: Stop = Stop { max_steps: 40, min_gain: 1e-4 };
+
+/// In mean square, how near the best so far a structure must come on the subset.
+const NEAR: f64 = 1.5;
+
+/// Structures beyond which it is given up.
+const MOST: usize = 4000;
+
+/// All programs of at most some cycles.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Enumeration {
+    pub cost: f64,
+    /// Programs that differ in more than constants.
+    pub structures: usize,
+}
+
+impl Search {
+    /// Takes in all programs of at most `cost` cycles, fitted; nothing where they are too many.
+    pub fn enumerate(&mut self, problem: &Problem, cost: f64) {
+        let Some(structures) = structures(problem, cost, MOST) else { return };
+        let members = best_of(&structures, problem);
+        let drafts: Vec<Draft> = members.iter().map(|member| member.draft.clone()).collect();
+        for member in members {
+            self.archive.offer(member);
+        }
+        self.settle(&drafts, problem);
+        self.enumeration = Some(Enumeration { cost, structures: structures.len() });
+    }
+
+    /// What was enumerated before the first generation.
+    pub fn enumeration(&self) -> Option<Enumeration> {
+        self.enumeration
+    }
+}
+
+/// The structures that come near the least error at their cost, fitted on all samples.
+fn best_of(structures: &[Draft], problem: &Problem) -> Vec<Member> {
+    let fitted: Vec<Option<Member>> = structures
+        .par_iter()
+        .map_init(Fitter::default, |fitter, draft| fitted(fitter, draft, problem))
+        .collect();
+    let mut near: Vec<Member> = fitted.into_iter().flatten().collect();
+    near.sort_by(|a, b| a.cost.total_cmp(&b.cost).then(a.loss.total_cmp(&b.loss)));
+    let mut least = f64::INFINITY;
+    near.retain(|member| {
+        let kept = member.loss < least * NEAR;
+        least = least.min(member.loss);
+        kept
+    });
+    let finish = |fitter: &mut Fitter, mut member: Member| {
+        member.loss = fitter.fit(&mut member.draft, &problem.all, ON_ALL) * problem.scale();
+        Some(member).filter(|member| problem.accepts(&member.draft))
+    };
+    near.into_par_iter().map_init(Fitter::default, finish).flatten().collect()
+}
+
+/// Every structure, or nothing where there are more than `most`.
+fn structures(problem: &Problem, cost: f64, most: usize) -> Option<Vec<Draft>> {
+    let mut known = HashSet::new();
+    let mut all: Vec<Draft> = Vec::new();
+    let mut latest = leaves(problem.all.inputs(), problem.all.outputs());
+    latest.retain(|draft| known.insert(hash(draft)));
+    while !latest.is_empty() {
+        let grown: Vec<Vec<(u64, Draft)>> =
+            latest.par_iter().map(|draft| grown(draft, problem, cost)).collect();
+        all.append(&mut latest);
+        for (hash, draft) in grown.into_iter().flatten() {
+            if known.insert(hash) {
+                latest.push(draft);
+            }
+        }
+        if all.len() + latest.len() > most {
+            return None;
+        }
+    }
+    Some(all)
+}
+
+fn hash(draft: &Draft) -> u64 {
+    structural_hash(draft, Constants::Ignored, &mut Vec::new())
+}
+
+/// Every choice of an input or a constant for each output.
+fn leaves(inputs: usize, outputs: usize) -> Vec<Draft> {
+    let mut drafts = vec![Draft { inputs, ..Draft::default() }];
+    for _ in 0..outputs {
+        let with = |draft: &Draft, input: Option<usize>| {
+            let mut draft = draft.clone();
+            let output = match input {
+                Some(input) => Arg::Input(input as u16),
+                None => draft.constant(0.5 + draft.consts.len() as f32),
+            };
+            draft.outputs.push(output);
+            draft
+        };
+        drafts = drafts
+            .iter()
+            .flat_map(|draft| (0..inputs).map(Some).chain([None]).map(move |i| with(draft, i)))
+            .collect();
+    }
+    drafts
+}
+
+/// What one more instruction makes of a draft, each structure once.
+fn grown(draft: &Draft, problem: &Problem, cost: f64) -> Vec<(u64, Draft)> {
+    let (mut simplifier, mut scratch) = (Simplifier::default(), CostScratch::default());
+    let mut simple = Draft::default();
+    let mut known = HashSet::new();
+    let mut grown = Vec::new();
+    insertions(draft, problem.grammar, &mut |child| {
+        simplifier.simplify(child, &mut simple);
+        let affordable = problem.cost(&simple, &mut scratch) <= cost;
+        let short = simple.instrs.len() <= problem.grammar.max_instructions;
+        let hash = hash(&simple);
+        if affordable && short && known.insert(hash) {
+            grown.push((hash, simple.clone()));
+        }
+    });
+    grown
+}
+
+/// A structure with the best constants of several starts, on the subset.
+fn fitted(fitter: &mut Fitter, draft: &Draft, problem: &Problem) -> Option<Member> {
+    if !problem.admits(draft) {
+        return None;
+    }
+    let cost = problem.cost(draft, &mut CostScratch::default());
+    let mut rng = ChaCha8Rng::seed_from_u64(hash(draft));
+    let mut best: Option<Member> = None;
+    for start in 0..STARTS {
+        let mut draft = draft.clone();
+        if start > 0 {
+            draft.consts.iter_mut().for_each(|c| *c = random_constant(&mut rng));
+        }
+        let subset = &problem.subset;
+        let loss = fitter.fit(&mut draft, subset, ON_SUBSET) / subset.total_weight();
+        if loss.is_finite() && best.as_ref().is_none_or(|known| loss < known.loss) {
+            best = Some(Member { cost, loss, draft });
+        }
+    }
+    best
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::cost::Profile;
+    use crate::dataset::{Column, Dataset, Split};
+    use crate::grammar::Grammar;
+    use crate::program::{Names, Program, parse, print};
+    use crate::search::Settings;
+
+    fn line() -> Dataset {
+        let xs: Vec<f32> = (0..50).map(|i| i as f32 / 49.0).collect();
+        let column =
+            |name: &str| Column { name: name.into(), unit: "1".into(), domain: [0.0, 1.0] };
+        let ys = xs.iter().map(|x| 0.3 - 0.7 * x).collect();
+        let split = Split { columns: vec![xs, ys], ..Split::default() };
+        Dataset {
+            name: "line".into(),
+            recipe: "0.3 - 0.7 x".into(),
+            inputs: vec![column("x")],
+            outputs: vec![column("y")],
+            search: split.clone(),
+            validation: split,
+        }
+    }
+
+    #[test]
+    fn every_structure_of_one_multiply_add_is_found() {
+        let (data, gpu) = (line(), Profile::find("gcn").unwrap());
+        let text = "(operations: {\"add\": 1, \"sub\": 1, \"mul\": 1}, max_instructions: 8)";
+        let grammar = Grammar::parse("linear", text).unwrap();
+        let settings = Settings::default();
+        let problem = Problem::new(&data, &grammar, &gpu, &settings);
+        let names = Names::new(["x"], ["y"]);
+        let found: HashSet<u64> =
+            structures(&problem, 1.0, 1000).unwrap().iter().map(hash).collect();
+        let by_hand = [
+            "y = x",
+            "y = 2",
+            "y = x + 2",
+            "y = 3 - x",
+            "y = 3*x",
+            "y = x*x",
+            "y = 3*x + 2",
+            "y = x*x + 2",
+            "y = x*x + x",
+            "y = x - x*x",
+            "y = 2 - x*x",
+        ];
+        for text in by_hand {
+            let draft = parse(text, &names).unwrap().into_draft();
+            let mut simple = Draft::default();
+            Simplifier::default().simplify(&draft, &mut simple);
+            assert!(found.contains(&hash(&simple)), "{text} is missing");
+        }
+        let all = structures(&problem, 1.0, 1000).unwrap();
+        for draft in &all {
+            let cost = problem.cost(draft, &mut CostScratch::default());
+            assert!(cost <= 1.0, "{}", print(&Program::verify(draft.clone()).unwrap(), &names));
+        }
+        assert_eq!(structures(&problem, 1.0, all.len() - 1), None);
+        let mut search = Search::new(settings.clone());
+        search.enumerate(&problem, 1.0);
+        assert!(search.archive().best_loss(1.0) < 1e-12);
+        assert_eq!(search.enumeration().map(|e| e.structures), Some(all.len()));
+    }
+}
