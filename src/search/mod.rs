@@ -39,6 +39,7 @@ use std::collections::HashSet;
 
 /// What decides the course of a search, given its problem.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(default)]
 pub struct Settings {
     pub seed: u64,
     /// Populations that evolve apart; not the number of threads.

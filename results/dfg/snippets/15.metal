@@ -2,19 +2,19 @@
 // data: dfg (7b034b9b6a989aa5), seed 1, lgp 0.1.0
 // domain: n_dot_v in [0, 1], roughness in [0, 1]
 // cost: 14 cycles on gcn
-// error: RMSE 0.00882, max 0.07856 on the search split
-//        RMSE 0.00885, max 0.08146 on the validation split
-//        scale: RMSE 0.01045, max 0.04700
-//        bias: RMSE 0.00681, max 0.07856
+// error: RMSE 0.00895, max 0.07124 on the search split
+//        RMSE 0.00900, max 0.07698 on the validation split
+//        scale: RMSE 0.01077, max 0.04811
+//        bias: RMSE 0.00665, max 0.07124
 // finite on every sample of both splits
-// t0 = n_dot_v*(n_dot_v*(0.08*roughness - 0.6) + 0.7) - 0.86; t1 = roughness*t0 + 1.89; t2 = saturate(t1 + 0.94*t0); t3 = saturate(t2 - 1.56*n_dot_v); bias = t3*(t3*(t1*t3 - t3) + 0.071) + 0.004; scale = saturate(n_dot_v*(roughness*(0.84*n_dot_v + (t2 - 2.43)) + 0.341) + 0.946) - 1.009*abs(bias)
+// t0 = n_dot_v*(0.66 - 0.45*n_dot_v) - 0.84; t1 = roughness*t0 + 1.9; t2 = saturate(t1 + 0.98*t0); t3 = saturate(t2 - 1.5*n_dot_v); bias = (t3*(t1*t3 - t3) + 0.054)*(t3 - 0.14*n_dot_v) + 0.0087; scale = saturate(n_dot_v*(roughness*(t2 - 2.36 + 0.67*n_dot_v) + 0.348) + 0.942) - 1.006*bias
 float2 dfg(float n_dot_v, float roughness) {
-    const float t0 = n_dot_v*(n_dot_v*(0.08*roughness - 0.6) + 0.7) - 0.86;
-    const float t1 = roughness*t0 + 1.89;
-    const float t2 = saturate(t1 + 0.94*t0);
-    const float t3 = saturate(t2 - 1.56*n_dot_v);
-    const float bias = t3*(t3*(t1*t3 - t3) + 0.071) + 0.004;
-    const float t4 = n_dot_v*(roughness*(0.84*n_dot_v + (t2 - 2.43)) + 0.341) + 0.946;
-    const float scale = saturate(t4) - 1.009*abs(bias);
+    const float t0 = n_dot_v*(0.66 - 0.45*n_dot_v) - 0.84;
+    const float t1 = roughness*t0 + 1.9;
+    const float t2 = saturate(t1 + 0.98*t0);
+    const float t3 = saturate(t2 - 1.5*n_dot_v);
+    const float bias = (t3*(t1*t3 - t3) + 0.054)*(t3 - 0.14*n_dot_v) + 0.0087;
+    const float t4 = saturate(n_dot_v*(roughness*(t2 - 2.36 + 0.67*n_dot_v) + 0.348) + 0.942);
+    const float scale = t4 - 1.006*bias;
     return float2(scale, bias);
 }

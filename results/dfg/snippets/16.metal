@@ -2,19 +2,19 @@
 // data: dfg (7b034b9b6a989aa5), seed 1, lgp 0.1.0
 // domain: n_dot_v in [0, 1], roughness in [0, 1]
 // cost: 15 cycles on gcn
-// error: RMSE 0.00839, max 0.07009 on the search split
-//        RMSE 0.00846, max 0.08793 on the validation split
-//        scale: RMSE 0.00969, max 0.05707
-//        bias: RMSE 0.00685, max 0.07009
+// error: RMSE 0.00873, max 0.07456 on the search split
+//        RMSE 0.00876, max 0.07654 on the validation split
+//        scale: RMSE 0.01021, max 0.04664
+//        bias: RMSE 0.00694, max 0.07456
 // finite on every sample of both splits
-// t0 = n_dot_v*(2.03 - 0.9*n_dot_v) + (-0.54*roughness - 1.62); t1 = roughness*t0; t2 = t1 + 0.35; t3 = saturate(n_dot_v - 0.66*(t1 + 0.1) + (0.53*t2 + 0.39 - 0.34*n_dot_v)*max(roughness, saturate(1.236*t0 + 2.137))); bias = (t3 - 2.023)*t3 + 1.0267; scale = saturate(n_dot_v*t2 + 0.949) - 1.0126*bias
+// t0 = n_dot_v*(n_dot_v*(0.1*(n_dot_v*roughness) - 0.7) + 0.74) - 0.86; t1 = roughness*t0 + 1.89; t2 = saturate(t1 + 0.943*t0); t3 = saturate(t2 - 1.57*n_dot_v); bias = t3*(t3*(t1*t3 - t3) + 0.0725) + 0.0041; scale = saturate(n_dot_v*(roughness*(0.964*n_dot_v + (t2 - 2.453)) + 0.322) + 0.949) - 1.011*abs(bias)
 float2 dfg(float n_dot_v, float roughness) {
-    const float t0 = n_dot_v*(2.03 - 0.9*n_dot_v) + (-0.54*roughness - 1.62);
-    const float t1 = roughness*t0;
-    const float t2 = t1 + 0.35;
-    const float t3 = max(roughness, saturate(1.236*t0 + 2.137));
-    const float t4 = saturate(n_dot_v - 0.66*(t1 + 0.1) + (0.53*t2 + 0.39 - 0.34*n_dot_v)*t3);
-    const float bias = (t4 - 2.023)*t4 + 1.0267;
-    const float scale = saturate(n_dot_v*t2 + 0.949) - 1.0126*bias;
+    const float t0 = n_dot_v*(n_dot_v*(0.1*(n_dot_v*roughness) - 0.7) + 0.74) - 0.86;
+    const float t1 = roughness*t0 + 1.89;
+    const float t2 = saturate(t1 + 0.943*t0);
+    const float t3 = saturate(t2 - 1.57*n_dot_v);
+    const float bias = t3*(t3*(t1*t3 - t3) + 0.0725) + 0.0041;
+    const float t4 = n_dot_v*(roughness*(0.964*n_dot_v + (t2 - 2.453)) + 0.322) + 0.949;
+    const float scale = saturate(t4) - 1.011*abs(bias);
     return float2(scale, bias);
 }

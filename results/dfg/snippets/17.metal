@@ -2,18 +2,20 @@
 // data: dfg (7b034b9b6a989aa5), seed 1, lgp 0.1.0
 // domain: n_dot_v in [0, 1], roughness in [0, 1]
 // cost: 16 cycles on gcn
-// error: RMSE 0.00828, max 0.07386 on the search split
-//        RMSE 0.00832, max 0.07229 on the validation split
-//        scale: RMSE 0.00975, max 0.04498
-//        bias: RMSE 0.00647, max 0.07386
+// error: RMSE 0.00830, max 0.07676 on the search split
+//        RMSE 0.00837, max 0.08948 on the validation split
+//        scale: RMSE 0.00960, max 0.05433
+//        bias: RMSE 0.00675, max 0.07676
 // finite on every sample of both splits
-// t0 = n_dot_v - 0.9*roughness; t1 = saturate(roughness*(n_dot_v*(-t0 - 0.26) - 0.03) + 1.05 + 0.79*t0); t2 = saturate(t1 - 1.59*(n_dot_v + 0.1*roughness)); bias = t2*((t1*t2 - 0.19)*t2 + 0.1512) + 0.00425; scale = saturate(n_dot_v*(roughness*(0.766*n_dot_v + (t1 - 2.56)) + 0.373) + 0.9675) + bias*(-0.413*roughness - 0.991)
+// t0 = n_dot_v*(1.88 - 0.8*n_dot_v) + (-0.5*roughness - 1.63); t1 = roughness*t0; t2 = t1 + 0.377; t3 = saturate(n_dot_v - 0.63*(t1 + 0.13) + (0.53*t2 + 0.445 - 0.43*n_dot_v)*max(roughness, saturate(1.22*t0 + 2.118))); bias = (t3 - 2.003)*t3 + 1.0053; scale = saturate(n_dot_v*t2 + 0.95) - 0.00484 - 1.007*bias
 float2 dfg(float n_dot_v, float roughness) {
-    const float t0 = n_dot_v - 0.9*roughness;
-    const float t1 = saturate(roughness*(n_dot_v*(-t0 - 0.26) - 0.03) + 1.05 + 0.79*t0);
-    const float t2 = saturate(t1 - 1.59*(n_dot_v + 0.1*roughness));
-    const float bias = t2*((t1*t2 - 0.19)*t2 + 0.1512) + 0.00425;
-    const float t3 = n_dot_v*(roughness*(0.766*n_dot_v + (t1 - 2.56)) + 0.373) + 0.9675;
-    const float scale = saturate(t3) + bias*(-0.413*roughness - 0.991);
+    const float t0 = n_dot_v*(1.88 - 0.8*n_dot_v) + (-0.5*roughness - 1.63);
+    const float t1 = roughness*t0;
+    const float t2 = t1 + 0.377;
+    const float t3 = max(roughness, saturate(1.22*t0 + 2.118));
+    const float t4 = n_dot_v - 0.63*(t1 + 0.13) + (0.53*t2 + 0.445 - 0.43*n_dot_v)*t3;
+    const float t5 = saturate(t4);
+    const float bias = (t5 - 2.003)*t5 + 1.0053;
+    const float scale = saturate(n_dot_v*t2 + 0.95) - 0.00484 - 1.007*bias;
     return float2(scale, bias);
 }

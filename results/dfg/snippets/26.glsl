@@ -2,23 +2,23 @@
 // data: dfg (7b034b9b6a989aa5), seed 1, lgp 0.1.0
 // domain: n_dot_v in [0, 1], roughness in [0, 1]
 // cost: 25 cycles on gcn
-// error: RMSE 0.00501, max 0.06614 on the search split
-//        RMSE 0.00507, max 0.07685 on the validation split
-//        scale: RMSE 0.00541, max 0.02931
-//        bias: RMSE 0.00458, max 0.06614
+// error: RMSE 0.00501, max 0.06580 on the search split
+//        RMSE 0.00508, max 0.07883 on the validation split
+//        scale: RMSE 0.00542, max 0.03010
+//        bias: RMSE 0.00457, max 0.06580
 // finite on every sample of both splits
-// t0 = 1.9*n_dot_v - 2.3; t1 = roughness*t0 + 0.2; t2 = t1 + n_dot_v*(n_dot_v*(n_dot_v - 2.64) + 1.58); t3 = 0.3*t2 + 1.13 - 1.46*n_dot_v; t4 = 0.42*t0 + 1.028; t5 = t3*max(roughness, t4) + (n_dot_v - 0.16*t1 + 0.376*t4); bias = t5*(t5 - 2.104) + 1.1086; scale = (saturate(n_dot_v*(0.074 - 0.12*roughness) + 1.0015 - 0.016*roughness)*(0.9*(n_dot_v - 0.5*roughness) - 84) + 83.072)*(bias + (0.122*t3 - 0.0359)) + (saturate(n_dot_v*t2 + 0.997) - 0.0804*roughness)
+// t0 = 1.9*n_dot_v - 2.3; t1 = roughness*t0 + 0.22; t2 = t1 + n_dot_v*(n_dot_v*(n_dot_v - 2.63) + 1.553); t3 = 0.3*t2 + 1.125 - 1.46*n_dot_v; t4 = 0.42*t0 + 1.027; t5 = t3*max(roughness, t4) + (n_dot_v - 0.16*t1 + 0.38*t4); bias = t5*(t5 - 2.097) + 1.1014; scale = (saturate(n_dot_v*(0.087 - 0.14*roughness) + 1.002 - 0.02*roughness)*(0.9*(n_dot_v - 0.5*roughness) - 70) + 69.078)*(bias + (0.1246*t3 - 0.0362)) + (saturate(n_dot_v*t2 + 0.993) - 0.081*roughness)
 vec2 dfg(float n_dot_v, float roughness) {
     float t0 = 1.9*n_dot_v - 2.3;
-    float t1 = roughness*t0 + 0.2;
-    float t2 = t1 + n_dot_v*(n_dot_v*(n_dot_v - 2.64) + 1.58);
-    float t3 = 0.3*t2 + 1.13 - 1.46*n_dot_v;
-    float t4 = 0.42*t0 + 1.028;
-    float t5 = t3*max(roughness, t4) + (n_dot_v - 0.16*t1 + 0.376*t4);
-    float bias = t5*(t5 - 2.104) + 1.1086;
-    float t6 = n_dot_v*(0.074 - 0.12*roughness) + 1.0015 - 0.016*roughness;
-    float t7 = clamp(t6, 0.0, 1.0)*(0.9*(n_dot_v - 0.5*roughness) - 84.0) + 83.072;
-    float t8 = clamp(n_dot_v*t2 + 0.997, 0.0, 1.0) - 0.0804*roughness;
-    float scale = t7*(bias + (0.122*t3 - 0.0359)) + t8;
+    float t1 = roughness*t0 + 0.22;
+    float t2 = t1 + n_dot_v*(n_dot_v*(n_dot_v - 2.63) + 1.553);
+    float t3 = 0.3*t2 + 1.125 - 1.46*n_dot_v;
+    float t4 = 0.42*t0 + 1.027;
+    float t5 = t3*max(roughness, t4) + (n_dot_v - 0.16*t1 + 0.38*t4);
+    float bias = t5*(t5 - 2.097) + 1.1014;
+    float t6 = n_dot_v*(0.087 - 0.14*roughness) + 1.002 - 0.02*roughness;
+    float t7 = clamp(t6, 0.0, 1.0)*(0.9*(n_dot_v - 0.5*roughness) - 70.0) + 69.078;
+    float t8 = clamp(n_dot_v*t2 + 0.993, 0.0, 1.0) - 0.081*roughness;
+    float scale = t7*(bias + (0.1246*t3 - 0.0362)) + t8;
     return vec2(scale, bias);
 }
