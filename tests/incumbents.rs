@@ -96,6 +96,85 @@ fn errors_are_those_of_the_reference_page() {
     }
 }
 
+/// RMSE and largest error over the rows of a reference table whose columns are those of a dataset,
+/// found by what each row's inputs and expected value are.
+fn errors_over(
+    name: &str,
+    target: &str,
+    output: &str,
+    row: impl Fn(&[f64]) -> ([f32; 2], f64),
+    table: &str,
+) -> [f64; 2] {
+    let file = committed(&format!("{target}.bin"));
+    let dataset = Dataset::load(&file).unwrap();
+    let found = incumbents_for(&file, &dataset).unwrap();
+    let known = found.iter().find(|known| known.incumbent.name == name).unwrap();
+    let index = known.outputs.iter().position(|known| known == output).unwrap();
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/reference").join(table);
+    let text = std::fs::read_to_string(path).unwrap();
+    let errors: Vec<f64> = text
+        .lines()
+        .skip(1)
+        .map(|line| {
+            let cells: Vec<f64> = line.split(',').map(|cell| cell.parse().unwrap()).collect();
+            let (inputs, expected) = row(&cells);
+            f64::from(known.program.evaluate(&inputs)[index]) - expected
+        })
+        .collect();
+    let squares: f64 = errors.iter().map(|error| error * error).sum();
+    let largest = errors.iter().map(|error| error.abs()).fold(0.0, f64::max);
+    [(squares / errors.len() as f64).sqrt(), largest]
+}
+
+#[test]
+fn errors_of_the_other_targets_are_those_of_the_reference_page() {
+    let zh = |output: &str, column: usize| {
+        let row = |cells: &[f64]| ([cells[0] as f32, cells[1] as f32], cells[column]);
+        errors_over("pesce_iwanicki_2015", "disney_zh", output, row, "disney_zh.csv")
+    };
+    let norm = |name: &str, column: usize| {
+        let row = |cells: &[f64]| ([cells[0] as f32, cells[1] as f32], cells[column]);
+        errors_over(name, "area_norm", "norm", row, "area_norm.csv")
+    };
+    let cases = [
+        (zh("zh0", 2), [".0039", ".0112"]),
+        (zh("zh1", 3), [".0052", ".0174"]),
+        (zh("zh2", 4), [".0045", ".0273"]),
+        (zh("beta", 5), [".0175", ".069"]),
+        (norm("karis_2013", 4), [".151", ".322"]),
+    ];
+    for (found, printed) in cases {
+        for (found, printed) in found.into_iter().zip(printed) {
+            let digits = printed.len() - 1;
+            assert_eq!(format!("{found:.digits$}").trim_start_matches('0'), printed, "{found}");
+        }
+    }
+}
+
+/// Every committed dataset has a published formula beside it that is finite on all of it.
+#[test]
+fn every_dataset_has_an_incumbent() {
+    let text = std::fs::read_to_string(committed("checksums.txt")).unwrap();
+    for file in text.lines().map(|line| line.split_once("  ").unwrap().1) {
+        let dataset = Dataset::load(&committed(file)).unwrap();
+        let incumbents = incumbents_for(&committed(file), &dataset).unwrap();
+        assert!(!incumbents.is_empty(), "{file}");
+        for known in incumbents.iter().filter(|known| known.incumbent.note != NAN_AT_A_CORNER) {
+            for split in [&dataset.search, &dataset.validation] {
+                for row in 0..split.rows() {
+                    let inputs: Vec<f32> =
+                        (0..dataset.inputs.len()).map(|index| split.columns[index][row]).collect();
+                    let values = known.program.evaluate(&inputs);
+                    let name = &known.incumbent.name;
+                    assert!(values.iter().all(|v| v.is_finite()), "{file}: {name} {inputs:?}");
+                }
+            }
+        }
+    }
+}
+
+const NAN_AT_A_CORNER: &str = "NaN at roughness = n_dot_v = 0.";
+
 #[test]
 fn both_datasets_find_the_incumbents_of_their_target() {
     for file in ["dfg.bin", "dfg_paper.bin"] {

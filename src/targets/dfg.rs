@@ -19,6 +19,7 @@ use super::{Choices, Error, Parameter, Progress, Recipe, Target, points};
 use crate::dataset::Dataset;
 use crate::microfacet::{fresnel, ggx};
 use crate::quadrature::{Abscissa, TanhSinh};
+use std::cell::Cell;
 use std::f64::consts::{FRAC_PI_2, PI};
 
 /// Largest estimated error that [`generate`] accepts.
@@ -60,33 +61,44 @@ pub enum Masking {
     Separable,
 }
 
-/// The two terms, and an estimate of the absolute error of either.
+/// The two terms.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Dfg {
     pub scale: f64,
     pub bias: f64,
+    /// Estimate of the absolute error of either.
     pub error: f64,
+    /// How often the integrand was evaluated.
+    pub evaluations: usize,
 }
 
 /// The terms at `n_dot_v` in (0, 1] and `alpha` in [0, 1], accurate to about
 /// 1e-9; at alpha = 0 their limit. Make `rule` once for many points.
 pub fn integrate(rule: &TanhSinh, n_dot_v: f64, alpha: f64, masking: Masking) -> Dfg {
+    integrate_within(rule, TOLERANCE, n_dot_v, alpha, masking)
+}
+
+/// [`integrate`], each of its integrals to an absolute `tolerance`.
+pub fn integrate_within(
+    rule: &TanhSinh,
+    tolerance: f64,
+    n_dot_v: f64,
+    alpha: f64,
+    masking: Masking,
+) -> Dfg {
     if alpha == 0.0 {
         let bias = fresnel::schlick_weight(n_dot_v);
-        return Dfg { scale: 1.0 - bias, bias, error: 0.0 };
+        return Dfg { scale: 1.0 - bias, bias, error: 0.0, evaluations: 0 };
     }
-    let view = View::new(n_dot_v, alpha, masking);
+    let view = View::new(n_dot_v, alpha, masking, tolerance);
     let theta_v = view.sine.atan2(view.cosine);
     let all_azimuths = Normal::at_angle(0.5 * (FRAC_PI_2 - theta_v), alpha);
     let no_azimuths = Normal::at_angle(0.5 * (FRAC_PI_2 + theta_v), alpha);
     let start = Normal { u: 0.0, complement: 1.0 };
     let full = integrate_normals(rule, &view, start, all_azimuths);
     let partial = integrate_normals(rule, &view, all_azimuths, no_azimuths);
-    Dfg {
-        scale: full.scale + partial.scale,
-        bias: full.bias + partial.bias,
-        error: full.error + partial.error,
-    }
+    let [scale, bias, error] = std::array::from_fn(|term| full[term] + partial[term]);
+    Dfg { scale, bias, error, evaluations: view.evaluations.get() }
 }
 
 struct View {
@@ -94,6 +106,8 @@ struct View {
     sine: f64,
     alpha: f64,
     masking: Masking,
+    tolerance: f64,
+    evaluations: Cell<usize>,
 }
 
 /// A normal's sample coordinate u and 1 - u, each to full relative precision.
@@ -119,9 +133,9 @@ impl Normal {
 }
 
 impl View {
-    fn new(cosine: f64, alpha: f64, masking: Masking) -> View {
+    fn new(cosine: f64, alpha: f64, masking: Masking, tolerance: f64) -> View {
         let sine = ((1.0 - cosine) * (1.0 + cosine)).sqrt();
-        View { cosine, sine, alpha, masking }
+        View { cosine, sine, alpha, masking, tolerance, evaluations: Cell::new(0) }
     }
 
     /// scale, bias and the error of either, averaged over azimuth.
@@ -130,8 +144,9 @@ impl View {
         let horizon = -self.cosine * (n_dot_h - sin_h) * (n_dot_h + sin_h);
         let reach = 2.0 * n_dot_h * sin_h * self.sine;
         let phi_max = if horizon <= -reach { PI } else { (horizon / reach).min(1.0).acos() };
-        let [scale, bias] =
-            rule.integrate_all(0.0, phi_max, TOLERANCE, |phi| self.terms(n_dot_h, sin_h, phi.x));
+        let [scale, bias] = rule
+            .integrate_all(0.0, phi_max, self.tolerance, |phi| self.terms(n_dot_h, sin_h, phi.x));
+        self.evaluations.set(self.evaluations.get() + scale.evaluations);
         let error = scale.error.max(bias.error);
         [scale.value / PI, bias.value / PI, error / PI]
     }
@@ -152,22 +167,19 @@ impl View {
     }
 }
 
-fn integrate_normals(rule: &TanhSinh, view: &View, from: Normal, to: Normal) -> Dfg {
+/// scale, bias and the error of either, over a range of normals.
+fn integrate_normals(rule: &TanhSinh, view: &View, from: Normal, to: Normal) -> [f64; 3] {
     // The range is measured where it is not a difference of nearly equal numbers.
     let width = if from.u < 0.5 { to.u - from.u } else { from.complement - to.complement };
     if width <= 0.0 {
-        return Dfg { scale: 0.0, bias: 0.0, error: 0.0 };
+        return [0.0; 3];
     }
     let ring = |at: Abscissa| {
         let normal = Normal { u: from.u + at.from_a, complement: to.complement + at.from_b };
         view.ring(rule, normal)
     };
-    let [scale, bias, inner] = rule.integrate_all(0.0, width, TOLERANCE, ring);
-    Dfg {
-        scale: scale.value,
-        bias: bias.value,
-        error: scale.error.max(bias.error) + inner.value.abs(),
-    }
+    let [scale, bias, inner] = rule.integrate_all(0.0, width, view.tolerance, ring);
+    [scale.value, bias.value, scale.error.max(bias.error) + inner.value.abs()]
 }
 
 /// Makes the dataset: search split at the cell centres of a regular grid on

@@ -4,13 +4,19 @@
 //! A [`Recipe`] names a target and its parameters; [`generate`] makes the
 //! dataset from it.
 
+pub mod area_light;
+pub mod area_norm;
 pub mod beckmann_g1;
 pub mod dfg;
+pub mod disney_zh;
 mod error;
 pub mod fresnel;
 pub mod ggx_d;
 pub mod hammon;
+mod lobe;
+pub mod lobe_plane;
 mod recipe;
+mod simplex;
 pub mod smith_g1;
 pub mod smith_g2;
 mod table;
@@ -74,6 +80,10 @@ pub fn targets() -> &'static [Target] {
         fresnel::TARGET,
         ggx_d::TARGET,
         hammon::TARGET,
+        area_norm::TARGET,
+        area_light::TARGET,
+        disney_zh::TARGET,
+        lobe_plane::TARGET,
     ]
 }
 

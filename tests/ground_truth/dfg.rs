@@ -1,25 +1,12 @@
-//! Ground truths against reference values that were computed by other programs
-//! (`tests/reference/README.md`), and committed datasets against their recipes.
+//! The split-integral DFG terms.
 
+use crate::{assert_near, committed, reference};
 use lgp::dataset::Dataset;
 use lgp::quadrature::TanhSinh;
+use lgp::targets::Recipe;
 use lgp::targets::dfg::{self, Masking};
-use lgp::targets::{Error, Recipe, generate};
-use std::path::{Path, PathBuf};
-use std::sync::atomic::{AtomicUsize, Ordering};
 
 const ACCURACY: f64 = 1e-6;
-
-fn reference(name: &str) -> Vec<Vec<f64>> {
-    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/reference").join(name);
-    let text = std::fs::read_to_string(path).unwrap();
-    let rows = text.lines().skip(1);
-    rows.map(|row| row.split(',').map(|cell| cell.parse().unwrap()).collect()).collect()
-}
-
-fn committed(file: &str) -> PathBuf {
-    Path::new(env!("CARGO_MANIFEST_DIR")).join("datasets").join(file)
-}
 
 /// Largest absolute difference between a search split and a table whose rows
 /// are in the same order.
@@ -88,13 +75,6 @@ fn dfg_tends_to_its_limit_for_narrow_lobes() {
     }
 }
 
-/// Equal but for the last bits: the sine and exponential of the system may
-/// differ from those of the machine that made the files.
-fn assert_near(found: f32, expected: f32, place: &str) {
-    let allowed = 2.0 * f32::EPSILON * expected.abs();
-    assert!((found - expected).abs() <= allowed, "{place}: {found} and {expected}");
-}
-
 #[test]
 fn committed_datasets_are_what_their_recipes_define() {
     let rule = TanhSinh::new();
@@ -117,46 +97,6 @@ fn committed_datasets_are_what_their_recipes_define() {
 }
 
 #[test]
-fn committed_datasets_are_generated_again() {
-    for name in ["dfg", "dfg_paper"] {
-        let recipe = Recipe::load(&committed(&format!("{name}.ron"))).unwrap();
-        let made = Dataset::load(&committed(&format!("{name}.bin"))).unwrap();
-        let done = AtomicUsize::new(0);
-        let again = generate(&recipe, &|_, total| {
-            assert!(done.fetch_add(1, Ordering::Relaxed) < total);
-        });
-        let again = again.unwrap();
-        assert_eq!(done.into_inner(), 64 + 101);
-        assert_eq!((&again.inputs, &again.recipe), (&made.inputs, &made.recipe), "{name}");
-        for (again, made) in [(&again.search, &made.search), (&again.validation, &made.validation)]
-        {
-            assert_eq!((&again.grid, &again.weights), (&made.grid, &made.weights), "{name}");
-            let pairs = again.columns.iter().flatten().zip(made.columns.iter().flatten());
-            pairs.for_each(|(&again, &made)| assert_near(again, made, name));
-        }
-    }
-}
-
-#[test]
-fn committed_datasets_have_their_checksums() {
-    let text = std::fs::read_to_string(committed("checksums.txt")).unwrap();
-    let mut listed = Vec::new();
-    for line in text.lines() {
-        let (expected, file) = line.split_once("  ").unwrap();
-        let bytes = std::fs::read(committed(file)).unwrap();
-        assert_eq!(blake3::hash(&bytes).to_hex().as_str(), expected, "{file}");
-        listed.push(file.to_owned());
-    }
-    let mut files: Vec<String> = std::fs::read_dir(committed(""))
-        .unwrap()
-        .map(|entry| entry.unwrap().file_name().into_string().unwrap())
-        .filter(|file| file.ends_with(".bin"))
-        .collect();
-    files.sort();
-    assert_eq!(listed, files);
-}
-
-#[test]
 fn dfg_splits_are_as_documented() {
     let dataset = Dataset::load(&committed("dfg.bin")).unwrap();
     let [search, validation] = [&dataset.search, &dataset.validation];
@@ -172,53 +112,4 @@ fn dfg_splits_are_as_documented() {
         dataset.inputs.iter().chain(&dataset.outputs).map(|column| &column.name[..]).collect();
     assert_eq!(names, ["n_dot_v", "roughness", "scale", "bias"]);
     assert!(dataset.inputs.iter().all(|column| column.domain == [0.0, 1.0]));
-}
-
-#[test]
-fn recipes_read_back_and_explain_themselves() {
-    let recipe = Recipe::parse(
-        "// the paper's\n(target: \"dfg\", masking: \"separable\", alpha: \"roughness^4\", points: 32)",
-    )
-    .unwrap();
-    assert_eq!(recipe.get("masking"), Some("separable"));
-    assert_eq!(recipe.get("points"), Some("32"));
-    assert_eq!(Recipe::parse(&recipe.to_string()).unwrap(), recipe);
-    let defaults = Recipe::parse("(target: \"dfg\")").unwrap();
-    assert_eq!(defaults, Recipe::new("dfg").unwrap());
-
-    let mut recipe = defaults;
-    recipe.set("masking", "separable").unwrap();
-    let refusals = [
-        (recipe.set("masking", "seperable"), "did you mean `separable`?"),
-        (recipe.set("masking", "none"), "write `correlated` or `separable`"),
-        (recipe.set("point", "3"), "did you mean `points`?"),
-        (recipe.set("points", "1"), "a whole number from 2 to 1024"),
-        (recipe.set("points", "many"), "a whole number from 2 to 1024"),
-    ];
-    for (refusal, expected) in refusals {
-        let error = refusal.unwrap_err().to_string();
-        assert!(error.contains(expected), "{error}");
-    }
-    assert_eq!(recipe.get("masking"), Some("separable"));
-}
-
-#[test]
-fn unusable_recipes_are_refused() {
-    let cases = [
-        ("", "line 1"),
-        ("(target: \"dfg\",\n masking: )", "line 2"),
-        ("12", "not a list of fields"),
-        ("(points: 3)", "names no target; begin it with"),
-        ("(target: 3)", "names no target"),
-        ("(target: \"dgf\")", "did you mean `dfg`?"),
-        ("(target: \"dfg\", points: 2.5)", "`2.5` is no value of parameter `points`"),
-        ("(target: \"dfg\", points: [2])", "is no value of parameter `points`"),
-        ("(target: \"dfg\", colour: 1)", "its parameters are masking, alpha, points"),
-    ];
-    for (text, expected) in cases {
-        let error = Recipe::parse(text).unwrap_err().to_string();
-        assert!(error.contains(expected), "{text:?}: {error}");
-    }
-    let missing = Recipe::load(Path::new("no_such_recipe.ron")).unwrap_err();
-    assert!(matches!(missing, Error::Read { .. }), "{missing}");
 }

@@ -1,0 +1,75 @@
+//! Committed datasets against their recipes and checksums.
+
+use crate::{assert_near, committed};
+use lgp::dataset::{Dataset, Split};
+use lgp::targets::{Recipe, generate};
+use std::collections::HashSet;
+use std::sync::atomic::{AtomicUsize, Ordering};
+
+const NAMES: [&str; 7] =
+    ["area_light", "area_norm", "dfg", "dfg_paper", "disney_zh", "lobe_plane", "lobe_plane_angle"];
+
+#[test]
+fn committed_datasets_are_generated_again() {
+    for name in NAMES {
+        let recipe = Recipe::load(&committed(&format!("{name}.ron"))).unwrap();
+        let made = Dataset::load(&committed(&format!("{name}.bin"))).unwrap();
+        assert_eq!(made.name, name);
+        assert_eq!(Recipe::parse(&made.recipe).unwrap(), recipe, "{name}");
+        let done = AtomicUsize::new(0);
+        let again = generate(&recipe, &|_, total| {
+            assert!(done.fetch_add(1, Ordering::Relaxed) < total);
+        });
+        let again = again.unwrap();
+        assert_eq!(done.into_inner(), made.search.grid[0] + made.validation.grid[0]);
+        assert_eq!((&again.inputs, &again.recipe), (&made.inputs, &made.recipe), "{name}");
+        for (again, made) in [(&again.search, &made.search), (&again.validation, &made.validation)]
+        {
+            assert_eq!((&again.grid, &again.weights), (&made.grid, &made.weights), "{name}");
+            let pairs = again.columns.iter().flatten().zip(made.columns.iter().flatten());
+            pairs.for_each(|(&again, &made)| assert_near(again, made, name));
+        }
+    }
+}
+
+#[test]
+fn no_row_is_in_both_splits_and_the_edges_are_validated() {
+    for name in NAMES {
+        let made = Dataset::load(&committed(&format!("{name}.bin"))).unwrap();
+        for (index, input) in made.inputs.iter().enumerate() {
+            let [search, validation] = [&made.search, &made.validation].map(|s| &s.columns[index]);
+            let range = |column: &[f32]| {
+                column.iter().fold([f32::MAX, f32::MIN], |[a, b], &v| [a.min(v), b.max(v)])
+            };
+            let ([low, high], [inner_low, inner_high]) = (range(validation), range(search));
+            assert!(low < inner_low && inner_high < high, "{name}: {}", input.name);
+            assert!((f64::from(high) - input.domain[1]).abs() < 1e-6, "{name}: {}", input.name);
+        }
+        assert!(made.search.rows() <= 4096 && made.search.rows() < made.validation.rows());
+        let rows = |split: &Split| -> HashSet<Vec<u32>> {
+            let inputs = &split.columns[..made.inputs.len()];
+            let row = |row: usize| inputs.iter().map(|column| column[row].to_bits()).collect();
+            (0..split.rows()).map(row).collect()
+        };
+        assert!(rows(&made.search).is_disjoint(&rows(&made.validation)), "{name}");
+    }
+}
+
+#[test]
+fn committed_datasets_have_their_checksums() {
+    let text = std::fs::read_to_string(committed("checksums.txt")).unwrap();
+    let mut listed = Vec::new();
+    for line in text.lines() {
+        let (expected, file) = line.split_once("  ").unwrap();
+        let bytes = std::fs::read(committed(file)).unwrap();
+        assert_eq!(blake3::hash(&bytes).to_hex().as_str(), expected, "{file}");
+        listed.push(file.to_owned());
+    }
+    let mut files: Vec<String> = std::fs::read_dir(committed(""))
+        .unwrap()
+        .map(|entry| entry.unwrap().file_name().into_string().unwrap())
+        .filter(|file| file.ends_with(".bin"))
+        .collect();
+    files.sort();
+    assert_eq!(listed, files);
+}

@@ -1,0 +1,53 @@
+//! Recipes as text, and what is said of those that cannot be used.
+
+use lgp::targets::{Error, Recipe};
+use std::path::Path;
+
+#[test]
+fn recipes_read_back_and_explain_themselves() {
+    let recipe = Recipe::parse(
+        "// the paper's\n(target: \"dfg\", masking: \"separable\", alpha: \"roughness^4\", points: 32)",
+    )
+    .unwrap();
+    assert_eq!(recipe.get("masking"), Some("separable"));
+    assert_eq!(recipe.get("points"), Some("32"));
+    assert_eq!(Recipe::parse(&recipe.to_string()).unwrap(), recipe);
+    let defaults = Recipe::parse("(target: \"dfg\")").unwrap();
+    assert_eq!(defaults, Recipe::new("dfg").unwrap());
+
+    let mut recipe = defaults;
+    recipe.set("masking", "separable").unwrap();
+    let refusals = [
+        (recipe.set("masking", "seperable"), "did you mean `separable`?"),
+        (recipe.set("masking", "none"), "write `correlated` or `separable`"),
+        (recipe.set("point", "3"), "did you mean `points`?"),
+        (recipe.set("points", "1"), "a whole number from 2 to 1024"),
+        (recipe.set("points", "many"), "a whole number from 2 to 1024"),
+    ];
+    for (refusal, expected) in refusals {
+        let error = refusal.unwrap_err().to_string();
+        assert!(error.contains(expected), "{error}");
+    }
+    assert_eq!(recipe.get("masking"), Some("separable"));
+}
+
+#[test]
+fn unusable_recipes_are_refused() {
+    let cases = [
+        ("", "line 1"),
+        ("(target: \"dfg\",\n masking: )", "line 2"),
+        ("12", "not a list of fields"),
+        ("(points: 3)", "names no target; begin it with"),
+        ("(target: 3)", "names no target"),
+        ("(target: \"dgf\")", "did you mean `dfg`?"),
+        ("(target: \"dfg\", points: 2.5)", "`2.5` is no value of parameter `points`"),
+        ("(target: \"dfg\", points: [2])", "is no value of parameter `points`"),
+        ("(target: \"dfg\", colour: 1)", "its parameters are masking, alpha, points"),
+    ];
+    for (text, expected) in cases {
+        let error = Recipe::parse(text).unwrap_err().to_string();
+        assert!(error.contains(expected), "{text:?}: {error}");
+    }
+    let missing = Recipe::load(Path::new("no_such_recipe.ron")).unwrap_err();
+    assert!(matches!(missing, Error::Read { .. }), "{missing}");
+}
