@@ -17,7 +17,7 @@ pub struct Args {
     dataset: PathBuf,
     #[command(flatten)]
     columns: Columns,
-    /// What it costs: a built-in GPU profile, or a .ron file
+    /// What it costs: a GPU profile, built in or a .ron file, or a mix such as gcn:2,turing:1
     #[arg(long, value_name = "P", default_value = "gcn")]
     gpu: String,
 }

@@ -3,7 +3,7 @@ use super::{Common, Failure, search};
 use crate::cost::Profile;
 use crate::dataset::Dataset;
 use crate::report::table::{Published, front_table};
-use crate::search::{MemberRecord, Run};
+use crate::search::{Front, MemberRecord, Run};
 use std::path::PathBuf;
 
 /// Show the front of a run as a table, published formulas beside it
@@ -16,11 +16,20 @@ pub struct Args {
 }
 
 pub fn run(args: &Args, common: &Common) -> Result<(), Failure> {
-    let (run, front) = run_folder::load(&args.run, args.which)?;
+    let (run, mut front) = run_folder::load(&args.run, args.which)?;
+    count_registers(&run, &mut front);
     let names = run.names();
     let records: Vec<_> = front.members.iter().map(|m| MemberRecord::new(m, &names)).collect();
     let table = front_table(&front, &incumbents(&run).unwrap_or_default(), &names.outputs);
     common.result(&records, &table)
+}
+
+/// Fills in what records of an older version lack, if the profile is still there.
+fn count_registers(run: &Run, front: &mut Front) {
+    let Ok(profile) = Profile::find(&run.gpu) else { return };
+    for member in front.members.iter_mut().filter(|member| member.registers.is_none()) {
+        member.registers = Some(profile.cost(&member.program).registers);
+    }
 }
 
 /// The incumbents, if the dataset is still where the run found it.

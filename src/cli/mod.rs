@@ -2,6 +2,7 @@
 
 mod analyze;
 mod columns;
+mod cost;
 mod duration;
 mod emit;
 mod eval;
@@ -44,6 +45,7 @@ To begin:
                                 the best one that you can afford
   lgp eval \"scale = 1 - roughness\" dfg.bin --outputs scale
                                 a formula of your own on the same axes
+  lgp cost \"y = exp2(-a*b)\"     what a formula costs on each GPU
 
 Exit codes: 0 done, 1 failed, 2 usage, 3 unusable input, 4 a target asked for
 was not met, 130 interrupted.";
@@ -64,6 +66,7 @@ enum Command {
     Front(front::Args),
     Emit(emit::Args),
     Eval(eval::Args),
+    Cost(cost::Args),
     Analyze(analyze::Args),
     Merge(merge::Args),
     Fit(fit::Args),
@@ -80,6 +83,7 @@ impl Command {
             Command::Front(args) => front::run(args, common),
             Command::Emit(args) => emit::run(args, common),
             Command::Eval(args) => eval::run(args, common),
+            Command::Cost(args) => cost::run(args, common),
             Command::Analyze(args) => analyze::run(args, common),
             Command::Merge(args) => merge::run(args, common),
             Command::Fit(args) => fit::run(args, common),

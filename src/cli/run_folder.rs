@@ -6,7 +6,7 @@ use crate::emit::{self, Language, Snippet};
 use crate::eval::OutputError;
 use crate::fit::Measure;
 use crate::report::plot::{self, FrontPlot, PlotError, Theme};
-use crate::report::table::{Published, error_text, front_table};
+use crate::report::table::{Published, cycles_text, error_text, front_table};
 use crate::search::{Census, Front, FrontMember, Run, Search, TracePoint, trace_csv};
 use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
@@ -165,7 +165,7 @@ pub fn snippet(run: &Run, member: &FrontMember, language: Language) -> String {
         format!("{} → {}", names.inputs.join(", "), names.outputs.join(", ")),
         format!("data: {} ({}), {}, lgp {}", run.name, run.dataset_hash, seeds(run), run.version),
         format!("domain: {}", domains(&run.inputs)),
-        format!("cost: {} cycles on {}", member.cost, run.gpu),
+        cost_line(member, run),
         format!("error: {} on the search split", described(search)),
         format!("       {} on the validation split", described(validation)),
     ];
@@ -190,6 +190,15 @@ fn seeds(run: &Run) -> String {
     let seeds: BTreeSet<u64> = run.sources.iter().map(|source| source.settings.seed).collect();
     let seeds: Vec<String> = seeds.iter().map(u64::to_string).collect();
     format!("{} {}", if seeds.len() == 1 { "seed" } else { "seeds" }, seeds.join(", "))
+}
+
+fn cost_line(member: &FrontMember, run: &Run) -> String {
+    let cycles = cycles_text(member.cost);
+    match member.registers {
+        Some(1) => format!("cost: {cycles} cycles, 1 register on {}", run.gpu),
+        Some(registers) => format!("cost: {cycles} cycles, {registers} registers on {}", run.gpu),
+        None => format!("cost: {cycles} cycles on {}", run.gpu),
+    }
 }
 
 fn described(error: OutputError) -> String {

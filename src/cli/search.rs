@@ -31,7 +31,7 @@ pub struct Args {
     /// What may be written: a built-in grammar, or a .ron file
     #[arg(long, value_name = "G", default_value = "shader")]
     grammar: String,
-    /// What it costs: a built-in GPU profile, or a .ron file
+    /// What it costs: a GPU profile, built in or a .ron file, or a mix such as gcn:2,turing:1
     #[arg(long, value_name = "P", default_value = "gcn")]
     gpu: String,
     /// How long to search, as in 60s, 10m [default: until little

@@ -50,6 +50,8 @@ pub struct Cost {
     pub gpu: String,
     /// Slots of the busiest pipe.
     pub cycles: f64,
+    /// That pipe.
+    pub limit: String,
     /// The most results alive at once; inputs and constants are not counted.
     pub registers: u32,
     /// Cycles from the inputs to the last output, if nothing else runs.
@@ -147,9 +149,13 @@ fn chip_cost(draft: &Draft, chip: &Chip) -> Cost {
         entry.count = literals;
         entry.take(chip, literal, f64::from(literals));
     }
+    let slots = slots(draft, chip, &scratch);
+    let cycles = busiest(&slots);
+    let limit = chip.pipes.iter().zip(slots).find(|(_, slots)| *slots == cycles);
     Cost {
         gpu: chip.name.clone(),
-        cycles: busiest(&slots(draft, chip, &scratch)),
+        cycles,
+        limit: limit.map(|(pipe, _)| pipe.clone()).unwrap_or_default(),
         registers: schedule::registers(draft, &scratch),
         critical_path: schedule::critical_path(draft, chip, &scratch),
         ops,

@@ -44,7 +44,7 @@ fn numbers(member: &FrontMember) -> String {
     let (search, validation) = (member.search_error(), member.validation_error());
     let mut text = format!(
         "{:>6}  {} {}  {} {}",
-        member.cost,
+        cycles_text(member.cost),
         error(search.rmse),
         error(search.max),
         error(validation.rmse),
@@ -63,7 +63,7 @@ fn incumbent_row(known: &Published, front: &Front) -> String {
         Some((i, member)) => format!(
             "dominated by {} ({} cycles, {} {})",
             i + 1,
-            member.cost,
+            cycles_text(member.cost),
             title(front.measure),
             error_text(member.search_error().of(front.measure))
         ),
@@ -89,6 +89,12 @@ pub fn dominating<'a>(known: &Published, front: &'a Front) -> Option<(usize, &'a
         .iter()
         .enumerate()
         .find(|(_, member)| member.dominates(&known.member, front.measure))
+}
+
+/// Cycles with two decimals at most, as a mix of GPUs gives them.
+pub fn cycles_text(cycles: f64) -> String {
+    let text = format!("{cycles:.2}");
+    text.trim_end_matches('0').trim_end_matches('.').to_owned()
 }
 
 /// An error in eight columns.

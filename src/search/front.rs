@@ -2,7 +2,7 @@
 
 use super::polish::{polish, promising};
 use super::{Problem, Search};
-use crate::cost::{CostScratch, Profile};
+use crate::cost::{Cost, Profile};
 use crate::dataset::Dataset;
 use crate::eval::{Evaluator, OutputError, Score, joint};
 use crate::fit::Measure;
@@ -15,6 +15,8 @@ pub struct FrontMember {
     pub program: Program,
     /// Cycles on the search's GPU profile.
     pub cost: f64,
+    /// Registers on it; none where a run's record has none.
+    pub registers: Option<u32>,
     pub score: Score,
     pub formula: String,
 }
@@ -34,8 +36,8 @@ impl FrontMember {
         // What is shown is what is scored and emitted, operand by operand.
         let program = parse(&formula, names).unwrap_or(program);
         let score = Score::of(&program, dataset, &mut Evaluator::default());
-        let cost = profile.cycles(&program, &mut CostScratch::default());
-        FrontMember { program, cost, score, formula }
+        let Cost { cycles, registers, .. } = profile.cost(&program);
+        FrontMember { program, cost: cycles, registers: Some(registers), score, formula }
     }
 
     /// Whether it costs no more than the other and errs no more, on the search split.

@@ -59,7 +59,7 @@ pub enum RecordError {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct MemberRecord {
     pub cost: f64,
-    /// Null until known.
+    /// Null in records of a version that did not count them.
     pub registers: Option<u32>,
     /// Over all outputs, on the search split.
     pub rmse: f64,
@@ -93,7 +93,7 @@ impl MemberRecord {
         };
         MemberRecord {
             cost: member.cost,
-            registers: None,
+            registers: member.registers,
             rmse: member.search_error().rmse,
             max_error: member.search_error().max,
             validation: member.validation_error(),
@@ -113,7 +113,13 @@ impl MemberRecord {
         };
         let score =
             Score { search: errors(&self.errors)?, validation: errors(&self.validation_errors)? };
-        Ok(FrontMember { program, cost: self.cost, score, formula: self.formula })
+        Ok(FrontMember {
+            program,
+            cost: self.cost,
+            registers: self.registers,
+            score,
+            formula: self.formula,
+        })
     }
 }
 
