@@ -3,8 +3,13 @@
 #[path = "../benches/gpu_stats/corpus.rs"]
 mod corpus;
 
+#[path = "../benches/gpu_stats/radv.rs"]
+mod radv;
+
 use corpus::{Corpus, cycles, nodes, pearson, spearman};
 use lgp::cost::Profile;
+use std::io::Write;
+use std::process::Command;
 
 /// Each profile, the columns of `tests/reference/gpu_corpus.csv` it answers to, and the rank
 /// correlation it must reach.
@@ -28,6 +33,75 @@ fn profiles_rank_formulas_as_compilers_do() {
         let (found, counted) = (spearman(&ours, &theirs), spearman(&nodes(&programs), &theirs));
         assert!(found >= least, "{gpu}: {found}");
         assert!(found > counted, "{gpu}: {found}, {counted} by counting nodes");
+    }
+}
+
+/// The same of formulas that no figure of a profile was chosen by.
+#[test]
+fn profiles_rank_fresh_formulas_as_compilers_do() {
+    let corpus = Corpus::parse(include_str!("../results/gpu/corpus.csv"));
+    let programs = corpus.programs();
+    assert_eq!(programs.len(), 200);
+    for (gpu, target, least) in &TARGETS[..2] {
+        let ours = cycles(&Profile::find(gpu).unwrap(), &programs);
+        let theirs = corpus.column(target);
+        let (found, counted) = (spearman(&ours, &theirs), spearman(&nodes(&programs), &theirs));
+        assert!(found >= *least, "{gpu}: {found}");
+        assert!(found > counted, "{gpu}: {found}, {counted} by counting nodes");
+    }
+}
+
+/// Formulas that are compiled again: every fifth.
+fn some_formulas(corpus: &Corpus) -> Vec<usize> {
+    (0..corpus.rows.len()).step_by(5).collect()
+}
+
+/// The compiler that is installed ranks formulas as the one that the committed table is from, and so do
+/// the profiles.
+#[test]
+fn the_compiler_at_hand_agrees() {
+    let Some(driver) = radv::driver() else {
+        let line =
+            "SKIPPED: mesa-vulkan-drivers is not installed; no formula was compiled for a GPU";
+        assert!(std::env::var("LGP_REQUIRE_TOOLS").as_deref() != Ok("1"), "{line}");
+        // The test harness captures what the print macros write, but not this.
+        let _ = std::io::stderr().write_all(format!("\n{line}\n").as_bytes());
+        return;
+    };
+    let corpus = Corpus::parse(include_str!("../results/gpu/corpus.csv"));
+    let rows = some_formulas(&corpus);
+    let programs = corpus.programs();
+    for (family, (gpu, target, least)) in ["vega10", "navi21"].into_iter().zip(TARGETS) {
+        // The variables are read when Vulkan is loaded: a process for each chip.
+        let child = Command::new(std::env::current_exe().unwrap())
+            .args(["--exact", "cycles_on_the_chip_of_the_environment", "--ignored", "--nocapture"])
+            .env("RADV_FORCE_FAMILY", family)
+            .env("VK_ICD_FILENAMES", &driver)
+            .env("MESA_SHADER_CACHE_DISABLE", "true")
+            .output()
+            .unwrap();
+        let text = String::from_utf8_lossy(&child.stdout);
+        let number = |line: &str| line.strip_prefix("cycles: ").map(|text| text.parse().unwrap());
+        let compiled: Vec<f64> = text.lines().filter_map(number).collect();
+        assert_eq!(compiled.len(), rows.len(), "{family}: {text}");
+        let pick = |values: Vec<f64>| -> Vec<f64> { rows.iter().map(|&row| values[row]).collect() };
+        let recorded = spearman(&compiled, &pick(corpus.column(target)));
+        assert!(recorded >= 0.98, "{family}: {recorded}");
+        let ours = spearman(&compiled, &pick(cycles(&Profile::find(gpu).unwrap(), &programs)));
+        assert!(ours >= least - 0.01, "{family}: {ours} on {} formulas", rows.len());
+    }
+}
+
+#[test]
+#[ignore = "a part of `the_compiler_at_hand_agrees`, which sets its environment"]
+fn cycles_on_the_chip_of_the_environment() {
+    let compiler = radv::Compiler::new().unwrap();
+    let unit = compiler.cycles_of_a_step().unwrap();
+    let corpus = Corpus::parse(include_str!("../results/gpu/corpus.csv"));
+    println!();
+    for row in some_formulas(&corpus) {
+        let program = radv::program(&corpus.rows[row].formula).unwrap();
+        println!("cycles: {}", compiler.cycles(&program).unwrap() / unit);
     }
 }
 

@@ -108,6 +108,7 @@ mod tests {
             FrontMember {
                 program: parse(formula, &names).unwrap(),
                 cost,
+                registers: None,
                 score: Score { search: errors.clone(), validation: errors },
                 formula: formula.into(),
             }

@@ -41,6 +41,7 @@ impl Simplifier {
         match (op, inner.op()) {
             (Op::Exp2, Op::Log2) | (Op::Log2, Op::Exp2) => Some(y),
             (Op::Exp, Op::Log) | (Op::Log, Op::Exp) => Some(y),
+            (Op::Rcp, Op::Exp2 | Op::Exp) => self.inverse_power(x),
             (Op::Rcp, Op::Rcp) => Some(y),
             (Op::Rcp, Op::Sqrt) | (Op::Sqrt, Op::Rcp) => Some(self.build(Op::Rsqrt, &[y])),
             (Op::Rcp, Op::Rsqrt) => Some(self.build(Op::Sqrt, &[y])),
@@ -252,6 +253,9 @@ impl Simplifier {
                 return Some(self.build(Op::Rcp, &[y]));
             }
         }
+        if let Some(inverse) = self.inverse_power(y) {
+            return Some(self.build(Op::Mul, &[x, inverse]));
+        }
         for (a, b, numerator) in [(x, y, true), (y, x, false)] {
             if let Some((inner, _)) = self.operands(a, Op::Neg) {
                 let quotient =
@@ -263,6 +267,16 @@ impl Simplifier {
         let (inner, c) = self.constant_last(x, Op::Mul).filter(|_| self.is_read_once(x))?;
         let quotient = self.build(Op::Div, &[inner, y]);
         Some(self.build(Op::Mul, &[quotient, c]))
+    }
+
+    /// `1/exp2(x)` as `exp2(−x)`, where nothing else reads the power: signs are free, an inverse is not.
+    fn inverse_power(&mut self, power: Arg) -> Option<Arg> {
+        let inner = self.definition(power).filter(|_| self.is_read_once(power))?;
+        if !matches!(inner.op(), Op::Exp2 | Op::Exp) {
+            return None;
+        }
+        let exponent = self.build(Op::Neg, &[inner.args()[0]]);
+        Some(self.build(inner.op(), &[exponent]))
     }
 
     fn extremum(&mut self, op: Op, x: Arg, y: Arg) -> Option<Arg> {
