@@ -18,6 +18,7 @@ mod merge;
 mod output;
 mod run_folder;
 mod search;
+mod verify;
 
 pub use failure::{Exit, Failure};
 pub use output::Common;
@@ -46,6 +47,8 @@ To begin:
   lgp eval \"scale = 1 - roughness\" dfg.bin --outputs scale
                                 a formula of your own on the same axes
   lgp cost \"y = exp2(-a*b)\"     what a formula costs on each GPU
+  lgp verify dfg.wgsl dfg.bin --max-error 0.01
+                                in your own CI: a shader file against the data
 
 Exit codes: 0 done, 1 failed, 2 usage, 3 unusable input, 4 a target asked for
 was not met, 130 interrupted.";
@@ -67,6 +70,7 @@ enum Command {
     Emit(emit::Args),
     Eval(eval::Args),
     Cost(cost::Args),
+    Verify(verify::Args),
     Analyze(analyze::Args),
     Merge(merge::Args),
     Fit(fit::Args),
@@ -84,6 +88,7 @@ impl Command {
             Command::Emit(args) => emit::run(args, common),
             Command::Eval(args) => eval::run(args, common),
             Command::Cost(args) => cost::run(args, common),
+            Command::Verify(args) => verify::run(args, common),
             Command::Analyze(args) => analyze::run(args, common),
             Command::Merge(args) => merge::run(args, common),
             Command::Fit(args) => fit::run(args, common),

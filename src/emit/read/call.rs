@@ -50,6 +50,13 @@ impl Reader<'_> {
     fn operation(&mut self, name: &str, args: &[Value], at: usize) -> Read<Value> {
         let calls = || Op::ALL.iter().filter_map(|&op| Some((op, call_of(self.syntax, op)?)));
         let named = calls().filter(|(_, call)| call.name == name);
+        // Between 0 and 1 it is a saturation, which is found as such.
+        if let ("clamp", [Value::Float(x), Value::Float(low), Value::Float(high)]) = (name, args)
+            && !self.is_unit(*low, *high)
+        {
+            let raised = self.draft.push(Op::Max, &[*x, *low]);
+            return Ok(Value::Float(self.draft.push(Op::Min, &[raised, *high])));
+        }
         let found = named.clone().find_map(|(op, call)| Some((op, self.matched(&call, args)?)));
         match found {
             Some((op, args)) => Ok(Value::Float(self.draft.push(op, &args))),
@@ -62,6 +69,12 @@ impl Reader<'_> {
                 self.error(at, format!("`{name}` is no function that can be read{hint}"))
             }
         }
+    }
+
+    fn is_unit(&self, low: Arg, high: Arg) -> bool {
+        let is =
+            |arg, value| matches!(arg, Arg::Const(i) if self.draft.consts[usize::from(i)] == value);
+        is(low, 0.0) && is(high, 1.0)
     }
 
     /// The operation's arguments, in its order.
