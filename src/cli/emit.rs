@@ -15,6 +15,10 @@ pub struct Args {
     /// hlsl, wgsl, glsl, msl, c, rust, python or latex
     #[arg(long, value_name = "L", value_parser = Language::from_name)]
     lang: Language,
+    /// In half precision throughout (hlsl, wgsl, glsl, msl); what that costs in accuracy is for
+    /// you to judge
+    #[arg(long)]
+    half: bool,
     /// Which one: its number in the table, or the knee [default: knee]
     #[arg(long, value_name = "knee|N", conflicts_with_all = ["max_cost", "max_error"])]
     pick: Option<String>,
@@ -38,7 +42,15 @@ struct Emitted<'a> {
 pub fn run(args: &Args, common: &Common) -> Result<(), Failure> {
     let (run, front) = run_folder::load(&args.run, args.which)?;
     let member = pick(args, &front)?;
-    let code = run_folder::snippet(&run, member, args.lang);
+    let code = match args.half {
+        false => run_folder::snippet(&run, member, args.lang),
+        true => run_folder::half_snippet(&run, member, args.lang).ok_or_else(|| {
+            Failure::usage(format!(
+                "--half: {} has no halves; hlsl, wgsl, glsl and msl do",
+                args.lang
+            ))
+        })?,
+    };
     let emitted = Emitted {
         language: args.lang.name(),
         cost: member.cost,

@@ -159,6 +159,24 @@ fn write(folder: &Path, name: &str, bytes: &[u8]) -> Result<(), Failure> {
 
 /// A member as a function ready to paste.
 pub fn snippet(run: &Run, member: &FrontMember, language: Language) -> String {
+    let (names, header) = (run.names(), header(run, member));
+    emit::emit(
+        language,
+        &Snippet { program: &member.program, names: &names, function: &run.name, header: &header },
+    )
+}
+
+/// A member in half precision, in a language that has it.
+pub fn half_snippet(run: &Run, member: &FrontMember, language: Language) -> Option<String> {
+    let (names, mut header) = (run.names(), header(run, member));
+    header.push("in half precision throughout; cost and errors are those of single".to_owned());
+    emit::emit_half(
+        language,
+        &Snippet { program: &member.program, names: &names, function: &run.name, header: &header },
+    )
+}
+
+fn header(run: &Run, member: &FrontMember) -> Vec<String> {
     let names = run.names();
     let (search, validation) = (member.search_error(), member.validation_error());
     let mut header = vec![
@@ -176,10 +194,7 @@ pub fn snippet(run: &Run, member: &FrontMember, language: Language) -> String {
     }
     header.push("finite on every sample of both splits".to_owned());
     header.push(member.formula.clone());
-    emit::emit(
-        language,
-        &Snippet { program: &member.program, names: &names, function: &run.name, header: &header },
-    )
+    header
 }
 
 /// The seed of a search, or those of a union.

@@ -2,8 +2,10 @@
 
 use super::naming::Naming;
 use super::syntax::{Binding, Signature, Spelling, Syntax, pieces, power};
+use crate::eval::{Arithmetic, Half};
 use crate::op::{MAX_ARITY, Op};
 use crate::program::{Arg, Program};
+use half::f16;
 
 /// One for each output, and for each result that is read or written more than once or too long
 /// to be read in place.
@@ -13,7 +15,7 @@ pub(super) fn statements(
     signature: &Signature,
     naming: &mut Naming,
 ) -> Vec<String> {
-    let forms = forms(program, syntax.power.is_some());
+    let forms = forms(program, syntax);
     let counts = use_counts(program, &forms);
     let mut body = Body {
         syntax,
@@ -42,12 +44,12 @@ enum Form {
     Operation,
 }
 
-fn forms(program: &Program, powers: bool) -> Vec<Form> {
+fn forms(program: &Program, syntax: &Syntax) -> Vec<Form> {
     let mut forms: Vec<Form> = Vec::with_capacity(program.instrs.len());
     for instr in &program.instrs {
         let constant = |arg: Arg| match arg {
             Arg::Input(_) => None,
-            Arg::Const(i) => Some(program.consts[usize::from(i)]),
+            Arg::Const(i) => Some(rounded(program.consts[usize::from(i)], syntax)),
             Arg::Result(i) => match forms[usize::from(i)] {
                 Form::Constant(value) => Some(value),
                 _ => None,
@@ -67,14 +69,22 @@ fn forms(program: &Program, powers: bool) -> Vec<Form> {
             value.is_some()
         });
         forms.push(match (instr.op(), instr.args()) {
+            (op, _) if known && syntax.half => {
+                Form::Constant(Half::default().apply(op, values.map(f16::from_f32)).to_f32())
+            }
             (op, _) if known => Form::Constant(op.apply(values)),
-            (Op::Mul, &[a, b]) if powers && factors(a).0 == factors(b).0 => {
+            (Op::Mul, &[a, b]) if syntax.power.is_some() && factors(a).0 == factors(b).0 => {
                 Form::Power(factors(a).0, factors(a).1 + factors(b).1)
             }
             _ => Form::Operation,
         });
     }
     forms
+}
+
+/// A constant in the language's precision.
+fn rounded(value: f32, syntax: &Syntax) -> f32 {
+    if syntax.half { f16::from_f32(value).to_f32() } else { value }
 }
 
 /// How often each result is read by an output or by what is written.
@@ -229,6 +239,7 @@ impl Body<'_, '_> {
     }
 
     fn constant(&mut self, value: f32) -> Code {
+        let value = rounded(value, self.syntax);
         if !value.is_finite() {
             return self.non_finite(value);
         }

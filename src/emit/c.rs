@@ -7,7 +7,7 @@ use super::syntax::{
 };
 use crate::op::Op;
 
-pub(super) static SYNTAX: Syntax = Syntax {
+pub(super) const SYNTAX: Syntax = Syntax {
     name: "c",
     aliases: &["c99", "c++", "cpp"],
     extension: "c",
@@ -19,6 +19,7 @@ pub(super) static SYNTAX: Syntax = Syntax {
     width: WIDTH,
     reserved,
     written: str::to_owned,
+    half: false,
     literal: |value| decimal(value) + "f",
     local: |name, value| format!("const float {name} = {value};"),
     non_finite: |name, _, bits| vec![format!("const float {name} = {};", non_finite(bits))],

@@ -2,12 +2,12 @@
 
 use super::c_family;
 use super::syntax::{
-    PARENTHESES, Signature, Spelling, Syntax, WIDTH, atom, decimal, is_word, negation, product,
-    select, sum,
+    PARENTHESES, Signature, Spelling, Syntax, WIDTH, atom, decimal, half_decimal_outward, is_word,
+    negation, product, select, sum,
 };
 use crate::op::Op;
 
-pub(super) static SYNTAX: Syntax = Syntax {
+pub(super) const SYNTAX: Syntax = Syntax {
     name: "glsl",
     aliases: &["opengl", "webgl", "webgl2", "essl", "gl"],
     extension: "glsl",
@@ -19,6 +19,7 @@ pub(super) static SYNTAX: Syntax = Syntax {
     width: WIDTH,
     reserved,
     written: str::to_owned,
+    half: false,
     literal: decimal,
     // In ES 3.00 the initialiser of a `const` must be constant.
     local: |name, value| format!("float {name} = {value};"),
@@ -26,6 +27,29 @@ pub(super) static SYNTAX: Syntax = Syntax {
     open: c_family::open,
     close,
     float_of_bits: "uintBitsToFloat",
+};
+
+/// Half precision, in desktop versions. `#extension` must come before anything else.
+pub(super) const HALF: Syntax = Syntax {
+    types: &["float16_t", "f16vec2", "f16vec3", "f16vec4"],
+    spelling: |op| match op {
+        Op::Saturate => atom("clamp({a}, 0.0hf, 1.0hf)"),
+        Op::Rcp => product("1.0hf/{a-}"),
+        op => spelling(op),
+    },
+    half: true,
+    // glslang truncates.
+    literal: |value| half_decimal_outward(value) + "hf",
+    local: |name, value| format!("float16_t {name} = {value};"),
+    non_finite: |name, _, bits| {
+        vec![format!("float16_t {name} = float16_t(uintBitsToFloat({bits:#010x}u));")]
+    },
+    open: |syntax, signature, lines| {
+        let extension = "#extension GL_EXT_shader_explicit_arithmetic_types_float16 : require";
+        lines.extend([extension.to_owned(), String::new()]);
+        c_family::open(syntax, signature, lines);
+    },
+    ..SYNTAX
 };
 
 fn spelling(op: Op) -> Spelling {

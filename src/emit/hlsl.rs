@@ -2,11 +2,12 @@
 
 use super::c_family;
 use super::syntax::{
-    PARENTHESES, Spelling, Syntax, WIDTH, atom, decimal, is_word, negation, product, select, sum,
+    PARENTHESES, Spelling, Syntax, WIDTH, atom, decimal, half_decimal_outward, is_word, negation,
+    product, select, sum,
 };
 use crate::op::Op;
 
-pub(super) static SYNTAX: Syntax = Syntax {
+pub(super) const SYNTAX: Syntax = Syntax {
     name: "hlsl",
     aliases: &["directx", "dx", "fx"],
     extension: "hlsl",
@@ -18,12 +19,28 @@ pub(super) static SYNTAX: Syntax = Syntax {
     width: WIDTH,
     reserved,
     written: str::to_owned,
+    half: false,
     literal: decimal,
     local: |name, value| format!("const float {name} = {value};"),
     non_finite: |name, _, bits| vec![format!("const float {name} = asfloat({bits:#010x});")],
     open: c_family::open,
     close: c_family::close,
     float_of_bits: "asfloat",
+};
+
+/// Half precision, with `-enable-16bit-types` and shader model 6.2; without, `half` is `float`.
+pub(super) const HALF: Syntax = Syntax {
+    types: &["half", "half2", "half3", "half4"],
+    spelling: |op| match op {
+        Op::Sign => atom("half(sign({a}))"),
+        op => spelling(op),
+    },
+    half: true,
+    // glslang truncates.
+    literal: |value| half_decimal_outward(value) + "h",
+    local: |name, value| format!("const half {name} = {value};"),
+    non_finite: |name, _, bits| vec![format!("const half {name} = half(asfloat({bits:#010x}));")],
+    ..SYNTAX
 };
 
 fn spelling(op: Op) -> Spelling {

@@ -6,7 +6,7 @@ use super::syntax::{
 use crate::op::Op;
 use crate::program::format_constant;
 
-pub(super) static SYNTAX: Syntax = Syntax {
+pub(super) const SYNTAX: Syntax = Syntax {
     name: "latex",
     aliases: &["tex"],
     extension: "tex",
@@ -18,6 +18,7 @@ pub(super) static SYNTAX: Syntax = Syntax {
     width: 200,
     reserved: |_| false,
     written,
+    half: false,
     literal,
     local: |name, value| format!(r"{name} &= {} \\", typeset(value)),
     non_finite: |name, _, bits| vec![format!(r"{} &= {} \\", written(name), non_finite(bits))],

@@ -157,10 +157,29 @@ pub struct Snippet<'a> {
 /// # Panics
 /// If `names` does not have a name for each input and output of the program.
 pub fn emit(language: Language, snippet: &Snippet) -> String {
+    written(language.syntax(), snippet)
+}
+
+/// The same function in half precision throughout, constants too; of a language that has none,
+/// nothing. What is emitted in WGSL and GLSL begins with the line that allows halves.
+///
+/// # Panics
+/// As [`emit`] does.
+pub fn emit_half(language: Language, snippet: &Snippet) -> Option<String> {
+    let syntax = match language {
+        Language::Hlsl => &hlsl::HALF,
+        Language::Wgsl => &wgsl::HALF,
+        Language::Glsl => &glsl::HALF,
+        Language::Msl => &msl::HALF,
+        Language::C | Language::Rust | Language::Python | Language::Latex => return None,
+    };
+    Some(written(syntax, snippet))
+}
+
+fn written(syntax: &'static Syntax, snippet: &Snippet) -> String {
     let Snippet { program, names, function, header } = *snippet;
     assert_eq!(names.inputs.len(), program.inputs, "a name for each input");
     assert_eq!(names.outputs.len(), program.outputs.len(), "a name for each output");
-    let syntax = language.syntax();
     let function = function_name(function, names);
     let mut naming = Naming::new(syntax.reserved, &function, names);
     let signature = naming.signature();

@@ -2,11 +2,12 @@
 
 use super::c_family;
 use super::syntax::{
-    PARENTHESES, Spelling, Syntax, WIDTH, atom, decimal, is_word, negation, product, select, sum,
+    PARENTHESES, Spelling, Syntax, WIDTH, atom, decimal, half_decimal, is_word, negation, product,
+    select, sum,
 };
 use crate::op::Op;
 
-pub(super) static SYNTAX: Syntax = Syntax {
+pub(super) const SYNTAX: Syntax = Syntax {
     name: "msl",
     aliases: &["metal"],
     extension: "metal",
@@ -18,6 +19,7 @@ pub(super) static SYNTAX: Syntax = Syntax {
     width: WIDTH,
     reserved,
     written: str::to_owned,
+    half: false,
     literal: decimal,
     local: |name, value| format!("const float {name} = {value};"),
     non_finite: |name, _, bits| {
@@ -26,6 +28,22 @@ pub(super) static SYNTAX: Syntax = Syntax {
     open: c_family::open,
     close: c_family::close,
     float_of_bits: "as_type",
+};
+
+/// Half precision.
+pub(super) const HALF: Syntax = Syntax {
+    types: &["half", "half2", "half3", "half4"],
+    spelling: |op| match op {
+        Op::Rcp => product("1.0h/{a-}"),
+        op => spelling(op),
+    },
+    half: true,
+    literal: |value| half_decimal(value) + "h",
+    local: |name, value| format!("const half {name} = {value};"),
+    non_finite: |name, _, bits| {
+        vec![format!("const half {name} = half(as_type<float>({bits:#010x}u));")]
+    },
+    ..SYNTAX
 };
 
 fn spelling(op: Op) -> Spelling {

@@ -5,7 +5,7 @@ use super::syntax::{
 };
 use crate::op::Op;
 
-pub(super) static SYNTAX: Syntax = Syntax {
+pub(super) const SYNTAX: Syntax = Syntax {
     name: "python",
     aliases: &["py", "numpy"],
     extension: "py",
@@ -17,6 +17,7 @@ pub(super) static SYNTAX: Syntax = Syntax {
     width: WIDTH,
     reserved,
     written: str::to_owned,
+    half: false,
     literal: decimal,
     local: |name, value| format!("{name} = {value}"),
     non_finite: |name, _, bits| vec![format!("{name} = {}", non_finite(bits))],

@@ -6,7 +6,7 @@ use super::syntax::{
 };
 use crate::op::Op;
 
-pub(super) static SYNTAX: Syntax = Syntax {
+pub(super) const SYNTAX: Syntax = Syntax {
     name: "rust",
     aliases: &["rs"],
     extension: "rs",
@@ -18,6 +18,7 @@ pub(super) static SYNTAX: Syntax = Syntax {
     width: WIDTH,
     reserved,
     written: str::to_owned,
+    half: false,
     literal: decimal,
     local: |name, value| format!("let {name} = {value};"),
     non_finite: |name, _, bits| vec![format!("let {name} = {};", non_finite(bits))],

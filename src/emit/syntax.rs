@@ -2,6 +2,7 @@
 
 use crate::op::Op;
 use crate::program::format_constant;
+use half::f16;
 
 /// A language.
 pub(super) struct Syntax {
@@ -24,6 +25,8 @@ pub(super) struct Syntax {
     pub reserved: fn(&str) -> bool,
     /// An allowed name as it is written.
     pub written: fn(&str) -> String,
+    /// Whether numbers are halves: constants are rounded, and folded, as such.
+    pub half: bool,
     pub literal: fn(f32) -> String,
     /// The declaration of a local that is never changed.
     pub local: fn(name: &str, value: &str) -> String,
@@ -147,6 +150,30 @@ pub(super) fn decimal(value: f32) -> String {
     if text.contains(['.', 'e']) { text } else { text + ".0" }
 }
 
+/// The shortest decimal that reads back as `value`, which is a half.
+pub(super) fn half_decimal(value: f32) -> String {
+    let half = f16::from_f32(value);
+    let digits = (0..8).map(|digits| format!("{value:.digits$e}").parse::<f32>());
+    let mut same = digits.flatten().filter(|decimal| f16::from_f32(*decimal) == half);
+    decimal(same.next().unwrap_or(value))
+}
+
+/// A short decimal that reads back as `value`, which is a half, whether it is rounded or
+/// truncated.
+pub(super) fn half_decimal_outward(value: f32) -> String {
+    let value = f64::from(value);
+    let decimals = (0..8).map(|digits: usize| {
+        let step = 10f64.powf(value.abs().log10().floor() - digits as f64);
+        let outward = value + (0.499 * step).copysign(value);
+        format!("{outward:.digits$e}").parse::<f64>()
+    });
+    let mut same = decimals.flatten().filter(|decimal| {
+        decimal.abs() >= value.abs() && f16::from_f64(*decimal) == f16::from_f64(value)
+    });
+    // Eight digits are more than a half has.
+    decimal(same.next().unwrap_or(value) as f32)
+}
+
 /// Whether `name` is one of the words of `list`.
 pub(super) fn is_word(list: &str, name: &str) -> bool {
     list.split_ascii_whitespace().any(|word| word == name)
@@ -170,6 +197,34 @@ mod tests {
                 assert!(arguments.into_iter().eq(0..op.arity()), "{op} in {language}: {template}");
             }
         }
+    }
+
+    #[test]
+    fn every_half_reads_back() {
+        for bits in 0..=u16::MAX {
+            let half = f16::from_bits(bits);
+            if half.is_finite() {
+                let text = half_decimal(half.to_f32());
+                assert_eq!(f16::from_f32(text.parse().unwrap()), half, "{text}");
+                assert!(text.len() <= 12, "{text}");
+            }
+        }
+        assert_eq!(half_decimal(f16::from_f32(0.1).to_f32()), "0.1");
+    }
+
+    #[test]
+    fn every_half_reads_back_truncated() {
+        for bits in 0..0x7c00 {
+            let [half, next] = [bits, bits + 1].map(|bits| f16::from_bits(bits).to_f64());
+            for half in [half, -half] {
+                let text = half_decimal_outward(half as f32);
+                let decimal: f64 = text.parse().unwrap();
+                assert_eq!(f16::from_f64(decimal).to_f64(), half, "{text}");
+                assert!((half.abs()..next).contains(&decimal.abs()), "{text}");
+                assert!(text.len() <= 12, "{text}");
+            }
+        }
+        assert_eq!(half_decimal_outward(f16::from_f32(0.07).to_f32()), "0.07001");
     }
 
     #[test]

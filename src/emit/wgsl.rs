@@ -1,11 +1,12 @@
 //! WGSL.
 
 use super::syntax::{
-    PARENTHESES, Signature, Spelling, Syntax, WIDTH, atom, decimal, is_word, negation, product, sum,
+    PARENTHESES, Signature, Spelling, Syntax, WIDTH, atom, decimal, half_decimal, is_word,
+    negation, product, sum,
 };
 use crate::op::Op;
 
-pub(super) static SYNTAX: Syntax = Syntax {
+pub(super) const SYNTAX: Syntax = Syntax {
     name: "wgsl",
     aliases: &["webgpu", "wgpu"],
     extension: "wgsl",
@@ -17,6 +18,7 @@ pub(super) static SYNTAX: Syntax = Syntax {
     width: WIDTH,
     reserved,
     written: str::to_owned,
+    half: false,
     literal: decimal,
     local: |name, value| format!("let {name} = {value};"),
     // An infinite constant expression is an error; what a variable holds is no constant.
@@ -29,6 +31,24 @@ pub(super) static SYNTAX: Syntax = Syntax {
     open,
     close,
     float_of_bits: "bitcast",
+};
+
+/// Half precision, where the device has `shader-f16`. `enable` must come before anything else.
+pub(super) const HALF: Syntax = Syntax {
+    types: &["f16", "vec2<f16>", "vec3<f16>", "vec4<f16>"],
+    half: true,
+    literal: |value| half_decimal(value) + "h",
+    non_finite: |name, bits_name, bits| {
+        vec![
+            format!("var {bits_name} = {bits:#010x}u;"),
+            format!("let {name} = f16(bitcast<f32>({bits_name}));"),
+        ]
+    },
+    open: |syntax, signature, lines| {
+        lines.extend(["enable f16;".to_owned(), String::new()]);
+        open(syntax, signature, lines);
+    },
+    ..SYNTAX
 };
 
 fn spelling(op: Op) -> Spelling {

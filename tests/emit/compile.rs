@@ -47,7 +47,7 @@ pub fn validated(code: &str) -> (naga::Module, naga::valid::ModuleInfo) {
         .unwrap_or_else(|e| panic!("{code}\n{}", e.emit_to_string(code)));
     let mut validator = naga::valid::Validator::new(
         naga::valid::ValidationFlags::all(),
-        naga::valid::Capabilities::empty(),
+        naga::valid::Capabilities::SHADER_FLOAT16,
     );
     let info = validator.validate(&module).unwrap_or_else(|e| panic!("{code}\n{e:?}"));
     (module, info)

@@ -4,7 +4,7 @@ use crate::agreement::{Case, OF_FORMULAS, Tolerance, front, operations};
 use crate::compile::validated;
 use crate::vulkan::Gpu;
 use crate::{text, tools};
-use lgp::emit::Language;
+use lgp::emit::{Language, Snippet, emit_half};
 use lgp::op::Op;
 use std::collections::BTreeMap;
 
@@ -23,19 +23,20 @@ fn hlsl_computes_what_the_interpreter_computes() {
     agree(Language::Hlsl);
 }
 
-fn agree(language: Language) {
+/// The software device, unless that or the language's compiler is missing.
+pub fn device(language: Language) -> Option<Gpu> {
     let untested = format!("{language} was not run");
-    let gpu = match Gpu::open("llvmpipe") {
-        Ok(gpu) => gpu,
-        Err(reason) => return tools::skipped(&format!("{reason}; {untested}")),
-    };
+    let gpu = Gpu::open("llvmpipe").map_err(|why| tools::skipped(&format!("{why}; {untested}")));
     let compiler = ["glslangValidator", "--version"];
-    if language != Language::Wgsl && !tools::found(&compiler, &untested) {
-        return;
-    }
+    let compiles = language == Language::Wgsl || tools::found(&compiler, &untested);
+    gpu.ok().filter(|_| compiles)
+}
+
+fn agree(language: Language) {
+    let Some(gpu) = device(language) else { return };
     let (operations, front) = (operations(), front());
     let mut worst: BTreeMap<Op, f32> = BTreeMap::new();
-    for (case, found) in operations.iter().zip(outputs(&gpu, language, &operations)) {
+    for (case, found) in operations.iter().zip(outputs(&gpu, language, Single, &operations)) {
         let op = case.op.unwrap();
         let apart = case.compare(&found, tolerance(op));
         worst.entry(op).and_modify(|worst| *worst = worst.max(apart)).or_insert(apart);
@@ -43,7 +44,7 @@ fn agree(language: Language) {
     for (op, worst) in worst {
         println!("{language}, {op}: {worst:.1e} apart at most");
     }
-    for (case, found) in front.iter().zip(outputs(&gpu, language, &front)) {
+    for (case, found) in front.iter().zip(outputs(&gpu, language, Single, &front)) {
         let apart = case.compare(&found, OF_FORMULAS);
         println!("{language}, {}: {apart:.1e} apart at most", case.title);
     }
@@ -79,53 +80,124 @@ fn tolerance(op: Op) -> Tolerance {
     Tolerance { absolute, relative }
 }
 
+#[derive(Clone, Copy, PartialEq)]
+pub enum Precision {
+    Single,
+    InHalf,
+}
+use Precision::{InHalf, Single};
+
 const GROUP: usize = 64;
 
 /// All cases in one shader: the outputs of each.
-fn outputs(gpu: &Gpu, language: Language, cases: &[Case]) -> Vec<Vec<Vec<f32>>> {
+pub fn outputs(
+    gpu: &Gpu,
+    language: Language,
+    precision: Precision,
+    cases: &[Case],
+) -> Vec<Vec<Vec<f32>>> {
     let input: Vec<f32> = cases.iter().flat_map(|case| case.inputs.concat()).collect();
     let rows = cases[0].rows();
     let columns: usize = cases.iter().map(|case| case.expected.len()).sum();
-    let spirv = compiled(language, &source(language, cases));
+    let spirv = compiled(language, precision, &source(language, precision, cases));
     let groups = rows.div_ceil(GROUP) as u32;
     let ran = gpu.run(&spirv, &input, rows * columns, groups).unwrap();
     let mut found = ran.output.chunks_exact(rows).map(<[f32]>::to_vec);
     cases.iter().map(|case| found.by_ref().take(case.expected.len()).collect()).collect()
 }
 
-fn source(language: Language, cases: &[Case]) -> String {
+fn source(language: Language, precision: Precision, cases: &[Case]) -> String {
+    let mut allowed = match (language, precision) {
+        (Language::Hlsl, InHalf) => functions_of_halves(),
+        _ => String::new(),
+    };
     let (mut functions, mut calls) = (String::new(), String::new());
     let (mut input, mut output) = (0, 0);
     for case in cases {
         assert_eq!(case.rows(), cases[0].rows());
-        functions += &text(language, &case.program, &case.names, &case.function, &[]);
-        calls += &call(language, case, input, output);
+        let code = function(language, precision, case);
+        match code.split_once("\n\n") {
+            // The line that allows halves may stand only once.
+            Some((line, rest)) if precision == InHalf => {
+                allowed = line.to_owned() + "\n";
+                functions += rest;
+            }
+            _ => functions += &code,
+        }
+        calls += &call(language, precision, case, input, output);
         input += case.inputs.len() * case.rows();
         output += case.expected.len() * case.rows();
     }
     let (before, after) = main_of(language, cases[0].rows());
-    functions + &before + &calls + after
+    allowed + &functions + &before + &calls + after
+}
+
+/// glslang has the functions of HLSL in single precision only; these stand for those of halves.
+fn functions_of_halves() -> String {
+    const BY_ARITY: [&str; 3] = [
+        "abs saturate rcp sqrt rsqrt exp2 log2 exp log sin cos tan asin acos atan tanh floor frac \
+         sign",
+        "min max pow atan2 step",
+        "mad lerp",
+    ];
+    let mut functions = String::new();
+    for (names, arguments) in BY_ARITY.into_iter().zip([1, 2, 3]) {
+        for name in names.split_whitespace() {
+            let each = |kind: fn(&str) -> String| {
+                ["a", "b", "c"][..arguments].iter().map(|a| kind(a)).collect::<Vec<_>>().join(", ")
+            };
+            let (declared, given) =
+                (each(|a| format!("half {a}")), each(|a| format!("float({a})")));
+            functions += &format!("half {name}({declared}) {{ return half({name}({given})); }}\n");
+        }
+    }
+    functions
+}
+
+fn function(language: Language, precision: Precision, case: &Case) -> String {
+    let Case { program, names, function, .. } = case;
+    match precision {
+        Single => text(language, program, names, function, &[]),
+        InHalf => emit_half(language, &Snippet { program, names, function, header: &[] }).unwrap(),
+    }
+}
+
+/// The types of a float and of a vector of floats, but for its number.
+fn types(language: Language, precision: Precision) -> [&'static str; 2] {
+    match (language, precision) {
+        (Language::Wgsl, Single) => ["f32", "vec"],
+        (Language::Wgsl, InHalf) => ["f16", "vec"],
+        (Language::Glsl, Single) => ["float", "vec"],
+        (Language::Glsl, InHalf) => ["float16_t", "f16vec"],
+        (_, Single) => ["float", "float"],
+        (_, InHalf) => ["half", "half"],
+    }
 }
 
 /// The case's outputs at the row `i`.
-fn call(language: Language, case: &Case, input: usize, output: usize) -> String {
-    let rows = case.rows();
-    let arguments: Vec<String> =
-        (0..case.inputs.len()).map(|c| format!("columns[{}u + i]", input + c * rows)).collect();
+fn call(
+    language: Language,
+    precision: Precision,
+    case: &Case,
+    input: usize,
+    output: usize,
+) -> String {
+    let ([float, vector], [single, _]) = (types(language, precision), types(language, Single));
+    let argument = |column| format!("{float}(columns[{}u + i])", input + column * case.rows());
+    let arguments: Vec<String> = (0..case.inputs.len()).map(argument).collect();
     let (function, count) = match case.names.outputs.as_slice() {
         [output] => (format!("{}_{output}", case.function), 1),
         outputs => (case.function.clone(), outputs.len()),
     };
     let declared = match (language, count) {
         (Language::Wgsl, _) => "let".to_owned(),
-        (_, 1) => "float".to_owned(),
-        (Language::Glsl, n) => format!("vec{n}"),
-        (_, n) => format!("float{n}"),
+        (_, 1) => float.to_owned(),
+        (_, n) => format!("{vector}{n}"),
     };
     let mut code = format!("        {{ {declared} y = {function}({});", arguments.join(", "));
-    for (o, component) in ["x", "y", "z", "w"].into_iter().take(count).enumerate() {
-        let value = if count == 1 { "y".to_owned() } else { format!("y.{component}") };
-        code += &format!(" results[{}u + i] = {value};", output + o * rows);
+    for (o, component) in [".x", ".y", ".z", ".w"].into_iter().take(count).enumerate() {
+        let value = if count == 1 { "y".to_owned() } else { format!("y{component}") };
+        code += &format!(" results[{}u + i] = {single}({value});", output + o * case.rows());
     }
     code + " }\n"
 }
@@ -161,7 +233,7 @@ void main(uint3 id : SV_DispatchThreadID) {{
     (before, "    }\n}\n")
 }
 
-fn compiled(language: Language, source: &str) -> Vec<u32> {
+fn compiled(language: Language, precision: Precision, source: &str) -> Vec<u32> {
     match language {
         Language::Wgsl => {
             let (module, info) = validated(source);
@@ -169,7 +241,11 @@ fn compiled(language: Language, source: &str) -> Vec<u32> {
             naga::back::spv::write_vec(&module, &info, &options, None).unwrap()
         }
         Language::Glsl => glslang("main.comp", &format!("#version 450\n{source}"), &[]),
-        _ => glslang("main.hlsl", source, &["-D", "-e", "main", "-S", "comp"]),
+        _ => {
+            let halves = (precision == InHalf).then_some("--hlsl-enable-16bit-types");
+            let options = ["-D", "-e", "main", "-S", "comp"].into_iter().chain(halves);
+            glslang("main.hlsl", source, &options.collect::<Vec<_>>())
+        }
     }
 }
 

@@ -3,6 +3,7 @@
 
 mod agreement;
 mod compile;
+mod half;
 mod hosts;
 mod lavapipe;
 mod programs;
@@ -11,7 +12,7 @@ mod tools;
 #[path = "../vulkan/mod.rs"]
 mod vulkan;
 
-use lgp::emit::{Language, Snippet, emit, read_back};
+use lgp::emit::{Language, Snippet, emit, emit_half, read_back};
 use lgp::op::Op;
 use lgp::program::{Names, Program, parse};
 use programs::EVERY_OPERATION;
@@ -62,6 +63,24 @@ fn every_operation_in_every_language() {
         assert!(found, "{op} is missing");
     }
     insta::assert_snapshot!(in_every_language(&program, &names, &[]));
+}
+
+#[test]
+fn every_operation_in_half_precision() {
+    let names = Names::new(["x", "y"], ["a", "b", "c", "d"]);
+    let program = parse(EVERY_OPERATION, &names).unwrap();
+    let snippet = Snippet { program: &program, names: &names, function: "dfg", header: &[] };
+    let texts: Vec<String> =
+        Language::ALL.iter().filter_map(|&language| emit_half(language, &snippet)).collect();
+    insta::assert_snapshot!(texts.join("\n"));
+}
+
+#[test]
+fn constants_in_half_precision_are_rounded_before_they_are_folded() {
+    let names = Names::new(["x"], ["y"]);
+    let program = parse("y = x*(0.1 + 0.2) - 70000 + 1e-9*x + 1/0", &names).unwrap();
+    let snippet = Snippet { program: &program, names: &names, function: "f", header: &[] };
+    insta::assert_snapshot!(emit_half(Language::Glsl, &snippet).unwrap());
 }
 
 #[test]

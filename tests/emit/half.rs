@@ -1,0 +1,108 @@
+//! WGSL, GLSL and HLSL in half precision: run on Mesa's software Vulkan, and compared with the
+//! evaluator for halves, and with single precision.
+
+use crate::agreement::{Case, Tolerance, front, operations};
+use crate::lavapipe::{Precision::InHalf, device, outputs};
+use crate::tools;
+use ::half::f16;
+use lgp::emit::Language;
+use lgp::eval::{Arithmetic, Half};
+use lgp::op::Op;
+use std::collections::BTreeMap;
+
+#[test]
+fn wgsl_in_half_precision_computes_what_the_evaluator_computes() {
+    agree_in_half(Language::Wgsl);
+}
+
+#[test]
+fn glsl_in_half_precision_computes_what_the_evaluator_computes() {
+    agree_in_half(Language::Glsl);
+}
+
+#[test]
+fn hlsl_in_half_precision_computes_what_the_evaluator_computes() {
+    agree_in_half(Language::Hlsl);
+}
+
+fn agree_in_half(language: Language) {
+    let Some(gpu) = device(language) else { return };
+    if !gpu.half {
+        return tools::skipped(&format!("{} has no halves; they were not run", gpu.name));
+    }
+    let operations: Vec<Case> = operations().into_iter().map(with_half_inputs).collect();
+    let mut worst: BTreeMap<Op, f32> = BTreeMap::new();
+    let found = outputs(&gpu, language, InHalf, &operations);
+    for (case, found) in operations.into_iter().zip(found) {
+        let op = case.op.unwrap();
+        let case = Case { expected: in_half(&case), ..case };
+        let apart = case.compare(&found, half_tolerance(op));
+        worst.entry(op).and_modify(|worst| *worst = worst.max(apart)).or_insert(apart);
+    }
+    for (op, worst) in worst {
+        println!("{language} in half, {op}: {worst:.1e} apart at most");
+    }
+    let front: Vec<Case> = front().into_iter().map(with_half_inputs).collect();
+    for (case, found) in front.iter().zip(outputs(&gpu, language, InHalf, &front)) {
+        let evaluator = in_half(case);
+        let run = largest_difference(&found, &case.expected);
+        let evaluated = largest_difference(&evaluator, &case.expected);
+        let between = largest_difference(&found, &evaluator);
+        println!(
+            "{language} in half, {}: off single precision by {run:.5}, the evaluator by \
+             {evaluated:.5}; {between:.5} between them",
+            case.title
+        );
+        assert!(run <= 2.0 * evaluated + 2e-3, "{}: {run}, not {evaluated}", case.title);
+    }
+}
+
+/// The same with inputs that a shader in half precision can be given; what is expected remains.
+fn with_half_inputs(mut case: Case) -> Case {
+    for value in case.inputs.iter_mut().flatten() {
+        *value = f16::from_f32(*value).to_f32();
+    }
+    case
+}
+
+/// The outputs that the evaluator for half precision gives.
+fn in_half(case: &Case) -> Vec<Vec<f32>> {
+    let mut outputs = vec![Vec::new(); case.expected.len()];
+    for row in 0..case.rows() {
+        let inputs: Vec<f16> = case.inputs.iter().map(|x| f16::from_f32(x[row])).collect();
+        let values = Half::default().evaluate(&case.program, &inputs);
+        outputs.iter_mut().zip(values).for_each(|(output, value)| output.push(value.to_f32()));
+    }
+    outputs
+}
+
+fn largest_difference(found: &[Vec<f32>], expected: &[Vec<f32>]) -> f32 {
+    let differences =
+        found.iter().flatten().zip(expected.iter().flatten()).map(|(a, b)| (a - b).abs());
+    differences.fold(0.0, |worst, difference| if difference <= worst { worst } else { difference })
+}
+
+/// What Vulkan demands of half precision, an ulp being up to 9.8e-4 of a value.
+fn half_tolerance(op: Op) -> Tolerance {
+    let [absolute, relative] = match op {
+        Op::Neg | Op::Abs | Op::Min | Op::Max | Op::Saturate | Op::Step | Op::Select => [0.0, 0.0],
+        Op::Floor | Op::Fract | Op::Sign => [0.0, 0.0],
+        Op::Add | Op::Sub | Op::Mul => [0.0, 0.0],
+        // Roundings of terms up to 64 and 72.
+        Op::Mad => [0.04, 0.0],
+        Op::Lerp => [0.2, 0.0],
+        Op::Div | Op::Rcp => [0.0, 2.5e-3],
+        Op::Rsqrt | Op::Sqrt => [0.0, 4e-3],
+        // 1 + 2 |x| ulp, |x| up to 8.
+        Op::Exp2 | Op::Exp => [0.0, 0.017],
+        // 2^-7 between ½ and 2, 3 ulp elsewhere.
+        Op::Log2 | Op::Log => [7.9e-3, 3e-3],
+        Op::Pow => [7.9e-3, 0.15],
+        Op::Sin | Op::Cos => [7.9e-3, 0.0],
+        Op::Tan => [0.03, 0.03],
+        // 5 ulp.
+        Op::Asin | Op::Acos | Op::Atan | Op::Atan2 => [5e-3, 5e-3],
+        Op::Tanh => [5e-3, 5e-3],
+    };
+    Tolerance { absolute, relative }
+}
