@@ -36,7 +36,7 @@ enum Args {
         count: usize,
         #[arg(long, default_value_t = 1)]
         seed: u64,
-        #[arg(long, default_value = "shader")]
+        #[arg(long, default_value = "benches/gpu_stats/grammar.ron")]
         grammar: String,
     },
     /// How well each profile agrees with such tables, in Markdown

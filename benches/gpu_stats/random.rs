@@ -28,10 +28,30 @@ fn formula(rng: &mut ChaCha8Rng, grammar: &Grammar) -> Program {
     let mut simple = Draft::default();
     Simplifier::default().simplify(&draft, &mut simple);
     match Program::verify(simple) {
-        Ok(program) if program.instrs.len() > 1 => program,
-        // A constant was folded to infinity, or nothing is left.
+        Ok(program) if program.instrs.len() > 1 && each_result_varies(&program, rng) => program,
+        // A constant was folded to infinity, nothing is left, or too little is computed.
         _ => formula(rng, grammar),
     }
+}
+
+/// Samples on which results must vary.
+const SAMPLES: usize = 200;
+
+/// Whether no result is constant, as in `saturate(−2 − saturate(x))`: compilers know the ranges of
+/// clamps and drop all that leads to one, and a search keeps no such formula.
+fn each_result_varies(program: &Program, rng: &mut ChaCha8Rng) -> bool {
+    let mut draft = program.clone().into_draft();
+    draft.outputs = (0..draft.instrs.len()).map(|i| Arg::Result(i as u16)).collect();
+    let every_result = Program::verify(draft).expect("the same instructions");
+    let mut bounds = vec![(f32::INFINITY, f32::NEG_INFINITY); program.instrs.len()];
+    for _ in 0..SAMPLES {
+        let inputs = INPUTS.map(|_| rng.random_range(-4.0..4.0f32));
+        for ((low, high), value) in bounds.iter_mut().zip(every_result.evaluate(&inputs)) {
+            // NaN is neither.
+            (*low, *high) = (low.min(value), high.max(value));
+        }
+    }
+    bounds.iter().all(|(low, high)| low < high)
 }
 
 fn operation(rng: &mut ChaCha8Rng, grammar: &Grammar) -> Op {
