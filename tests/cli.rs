@@ -215,6 +215,36 @@ fn list_shows_what_there_is() {
 }
 
 #[test]
+fn flat_regions_are_pruned_where_asked_for() {
+    let table: String = (0..256)
+        .map(|k| {
+            let x = f64::from(k) / 256.0;
+            format!("{x},{}\n", (x - 0.75).max(0.0))
+        })
+        .collect();
+    let folder = folder_with(&[("ramp.csv", format!("x,y\n{table}").as_bytes())]);
+    let arguments = |more: &[&'static str]| {
+        let mut all = vec!["import", "ramp.csv", "-o", "ramp.bin", "--inputs", "1", "--json"];
+        all.extend(more);
+        all
+    };
+    let all = lgp(folder.path(), &arguments(&[])).json();
+    let pruned = lgp(folder.path(), &arguments(&["--prune", "0.05"])).json();
+    let rows = |made: &serde_json::Value, split: &str| made[split].as_u64().unwrap();
+    assert!(4 * rows(&pruned, "search_rows") < rows(&all, "search_rows"), "{pruned}");
+    assert_eq!(rows(&pruned, "validation_rows"), rows(&all, "validation_rows"));
+    let info = lgp(folder.path(), &["info", "ramp.bin"]);
+    assert!(info.stdout.contains("pruned at 0.05"), "{}", info.stdout);
+    let made = ["generate", "disney_zh", "--set", "points=8", "--prune", "0.1", "--json"];
+    assert!(rows(&lgp(folder.path(), &made).json(), "search_rows") < 64);
+    for share in ["1", "-0.1", "a", "nan"] {
+        let prune = format!("--prune={share}");
+        let arguments = ["import", "ramp.csv", "-o", "no.bin", "--inputs", "1", &prune];
+        assert_refused(folder.path(), &arguments, USAGE, &["as in 0.01"]);
+    }
+}
+
+#[test]
 fn a_broken_dataset_is_listed_as_such() {
     let folder = tempfile::tempdir().unwrap();
     std::fs::create_dir(folder.path().join("datasets")).unwrap();

@@ -1,4 +1,5 @@
 use super::output::{check_writable, save};
+use super::pruning::Pruning;
 use super::{Common, Exit, Failure};
 use crate::targets::{self, Recipe, targets};
 use serde::Serialize;
@@ -16,6 +17,8 @@ pub struct Args {
     /// Choose a parameter of the target, as in --set points=32
     #[arg(long, value_name = "K=V", value_parser = key_value)]
     set: Vec<(String, String)>,
+    #[command(flatten)]
+    pruning: Pruning,
 }
 
 #[derive(Serialize)]
@@ -41,7 +44,7 @@ pub fn run(args: &Args, common: &Common) -> Result<(), Failure> {
         bar.set_position(bar.position().max(done as u64));
     });
     bar.finish_and_clear();
-    let dataset = save(dataset?, &path)?;
+    let dataset = save(args.pruning.applied_to(dataset?), &path)?;
     let made = Made {
         search_rows: dataset.search.rows(),
         validation_rows: dataset.validation.rows(),

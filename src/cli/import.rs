@@ -1,4 +1,5 @@
 use super::output::{check_writable, save};
+use super::pruning::Pruning;
 use super::{Common, Failure};
 use crate::dataset::{Column, InputColumns, import_csv};
 use serde::Serialize;
@@ -18,6 +19,8 @@ pub struct Args {
     /// The inputs: the first N columns, or names as in a,b; all others are outputs
     #[arg(long, value_name = "N|NAMES", value_parser = input_columns)]
     inputs: InputColumns,
+    #[command(flatten)]
+    pruning: Pruning,
 }
 
 #[derive(Serialize)]
@@ -39,7 +42,7 @@ pub fn run(args: &Args, common: &Common) -> Result<(), Failure> {
         return Err(Failure::usage(message));
     }
     check_writable(&args.output)?;
-    let dataset = save(dataset, &args.output)?;
+    let dataset = save(args.pruning.applied_to(dataset), &args.output)?;
     let names =
         |columns: &[Column]| columns.iter().map(|column| column.name.clone()).collect::<Vec<_>>();
     let imported = Imported {

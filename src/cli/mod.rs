@@ -16,6 +16,7 @@ mod inventory;
 mod list;
 mod merge;
 mod output;
+mod pruning;
 mod run_folder;
 mod search;
 mod verify;

@@ -10,6 +10,7 @@ mod error;
 mod file;
 mod format;
 mod incumbent;
+mod prune;
 mod select;
 
 pub use csv::{InputColumns, import_csv};

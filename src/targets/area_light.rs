@@ -17,6 +17,7 @@
 //! rule takes it, beyond the lobe's width in the logarithm of ψ.
 
 use super::lobe::ggx;
+use super::sampling::{SAMPLING, SAMPLING_SEED};
 use super::table::{Axis, Sample, Table};
 use super::{Error, Progress, Recipe, Target, points};
 use crate::dataset::Dataset;
@@ -33,7 +34,7 @@ pub(super) const TARGET: Target = Target {
     name: "area_light",
     description: "GGX lobe integrated over a spherical light, over its peak, v = n = r",
     columns: "omega (full cone angle), roughness, theta (light from r) → lobe",
-    parameters: &[points("16", 64)],
+    parameters: &[points("16", 64), SAMPLING, SAMPLING_SEED],
     generate,
 };
 

@@ -19,6 +19,7 @@
 //! b = .3755, c = 1.484.
 
 use super::lobe::{ggx, integrate_angle};
+use super::sampling::{SAMPLING, SAMPLING_SEED};
 use super::table::{Axis, Sample, Table};
 use super::{Choices, Error, Parameter, Progress, Recipe, Target, points};
 use crate::dataset::Dataset;
@@ -51,6 +52,8 @@ pub(super) const TARGET: Target = Target {
             choices: Choices::OneOf(&[OMEGA, TAN_HALF_OMEGA]),
         },
         points("64", 1024),
+        SAMPLING,
+        SAMPLING_SEED,
     ],
     generate,
 };

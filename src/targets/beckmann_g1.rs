@@ -5,6 +5,7 @@
 //! Walter et al. ("Microfacet Models for Refraction through Rough Surfaces", 2007,
 //! eqs. 26 and 27), up to 1.6, from where on the approximation is 1.
 
+use super::sampling::{SAMPLING, SAMPLING_SEED};
 use super::table::{Axis, Sample, Table};
 use super::{Error, Progress, Recipe, Target, points};
 use crate::dataset::Dataset;
@@ -17,7 +18,7 @@ pub(super) const TARGET: Target = Target {
     name: "beckmann_g1",
     description: "Smith masking of Beckmann facets, exact, over a = 1 / (alpha tan(theta))",
     columns: "a → g1",
-    parameters: &[points("256", 4096)],
+    parameters: &[points("256", 4096), SAMPLING, SAMPLING_SEED],
     generate,
 };
 

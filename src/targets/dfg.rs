@@ -14,6 +14,7 @@
 //! stiff (a narrow lobe, grazing light) lies at an end of one of them. u is
 //! carried with its complement, which keeps the far tail of a narrow lobe.
 
+use super::sampling::{SAMPLING, SAMPLING_SEED};
 use super::table::{Axis, Sample, Table};
 use super::{Choices, Error, Parameter, Progress, Recipe, Target, points};
 use crate::dataset::Dataset;
@@ -50,6 +51,8 @@ pub(super) const TARGET: Target = Target {
             choices: Choices::OneOf(&[ROUGHNESS_SQUARED, ROUGHNESS_FOURTH]),
         },
         points("64", 1024),
+        SAMPLING,
+        SAMPLING_SEED,
     ],
     generate,
 };

@@ -14,6 +14,7 @@
 //! Gauss–Legendre is exact: nothing but rounding is lost. b has the factor
 //! sin θv, which leaves the quotient tan θd / sin θv that β needs, at v = n, too.
 
+use super::sampling::{SAMPLING, SAMPLING_SEED};
 use super::table::{Axis, Sample, Table};
 use super::{Error, Progress, Recipe, Target, points};
 use crate::dataset::Dataset;
@@ -30,7 +31,7 @@ pub(super) const TARGET: Target = Target {
     name: "disney_zh",
     description: "zonal harmonics of the Disney diffuse lobe times cosine, 1/pi included",
     columns: "n_dot_v, roughness → zh0, zh1, zh2, beta (axis = (1 - beta) n + beta v)",
-    parameters: &[points("64", 1024)],
+    parameters: &[points("64", 1024), SAMPLING, SAMPLING_SEED],
     generate,
 };
 

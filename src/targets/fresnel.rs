@@ -5,6 +5,7 @@
 //! Graphics", 1982, eq. 18), over the reflectance at normal incidence from that
 //! of water (η = 1.33) to above that of diamond (η = 2.42).
 
+use super::sampling::{SAMPLING, SAMPLING_SEED};
 use super::table::{Axis, Sample, Table};
 use super::{Error, Progress, Recipe, Target, points};
 use crate::dataset::Dataset;
@@ -17,7 +18,7 @@ pub(super) const TARGET: Target = Target {
     name: "fresnel",
     description: "Fresnel reflectance of dielectrics, exact, unpolarised",
     columns: "v_dot_h, f0 → reflectance",
-    parameters: &[points("64", 1024)],
+    parameters: &[points("64", 1024), SAMPLING, SAMPLING_SEED],
     generate,
 };
 

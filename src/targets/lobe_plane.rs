@@ -23,6 +23,7 @@
 //! Gauss–Legendre in t, ρ = w sinh t, w the spot's width, and over the azimuth
 //! by midpoints.
 
+use super::sampling::{SAMPLING, SAMPLING_SEED};
 use super::simplex;
 use super::table::{Axis, Sample, Spacing, Table};
 use super::{Choices, Error, Parameter, Progress, Recipe, Target, points};
@@ -55,6 +56,8 @@ pub(super) const TARGET: Target = Target {
             choices: Choices::OneOf(&["2", "4"]),
         },
         points("64", 1024),
+        SAMPLING,
+        SAMPLING_SEED,
     ],
     generate,
 };

@@ -16,6 +16,7 @@ pub mod hammon;
 mod lobe;
 pub mod lobe_plane;
 mod recipe;
+mod sampling;
 mod simplex;
 pub mod smith_g1;
 pub mod smith_g2;

@@ -1,3 +1,4 @@
+use super::sampling::{SAMPLING, SAMPLING_SEED};
 use super::{Choices, Error, Parameter, Target, targets};
 use ron::value::{Map, Value};
 use std::fmt;
@@ -101,7 +102,13 @@ impl Recipe {
 impl fmt::Display for Recipe {
     fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
         write!(f, "(target: {:?}", self.target.name)?;
-        for (parameter, value) in self.target.parameters.iter().zip(&self.values) {
+        let pairs = self.target.parameters.iter().zip(&self.values);
+        // Most recipes sample regularly, and say nothing about it.
+        let said = |(parameter, value): &(&Parameter, &String)| {
+            ![SAMPLING.name, SAMPLING_SEED.name].contains(&parameter.name)
+                || **value != parameter.default
+        };
+        for (parameter, value) in pairs.filter(said) {
             match parameter.choices {
                 Choices::OneOf(_) => write!(f, ", {}: {value:?}", parameter.name)?,
                 Choices::Count { .. } => write!(f, ", {}: {value}", parameter.name)?,

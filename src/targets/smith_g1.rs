@@ -3,6 +3,7 @@
 //!
 //! Definition: [`ggx::g1`] (Walter et al. 2007, eq. 34), over the width itself.
 
+use super::sampling::{SAMPLING, SAMPLING_SEED};
 use super::table::{Axis, Sample, Table};
 use super::{Error, Progress, Recipe, Target, points};
 use crate::dataset::Dataset;
@@ -15,7 +16,7 @@ pub(super) const TARGET: Target = Target {
     name: "smith_g1",
     description: "Smith masking of GGX facets, exact",
     columns: "n_dot_v, alpha → g1",
-    parameters: &[points("64", 1024)],
+    parameters: &[points("64", 1024), SAMPLING, SAMPLING_SEED],
     generate,
 };
 

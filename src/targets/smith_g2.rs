@@ -4,6 +4,7 @@
 //! Definition: [`ggx::g2_correlated`] and [`ggx::g2_separable`] (Heitz, 2014, eqs.
 //! 98 and 99), over the width itself.
 
+use super::sampling::{SAMPLING, SAMPLING_SEED};
 use super::table::{Axis, Sample, Table};
 use super::{Choices, Error, Parameter, Progress, Recipe, Target, points};
 use crate::dataset::Dataset;
@@ -26,6 +27,8 @@ pub(super) const TARGET: Target = Target {
             choices: Choices::OneOf(&[CORRELATED, SEPARABLE]),
         },
         points("16", 64),
+        SAMPLING,
+        SAMPLING_SEED,
     ],
     generate,
 };

@@ -1,5 +1,6 @@
 //! From a function of a few inputs to its dataset.
 
+use super::sampling::{SAMPLING_SEED, Samples, Sampling, adaptive, jittered, low_discrepancy};
 use super::{Error, Progress, Recipe};
 use crate::dataset::{Column, Dataset, Split, domain_of};
 use rayon::prelude::*;
@@ -104,9 +105,10 @@ pub(super) struct Sample<const N: usize> {
 }
 
 impl Table<'_> {
-    /// Search split at the cell centres of a regular grid, unweighted;
-    /// validation split at the nodes of another, denser one, edges included,
-    /// weighted by area (trapezoidal, mean 1). No point is in both.
+    /// Search split at the cell centres of a regular grid, unweighted, or as
+    /// the recipe's sampling says; validation split at the nodes of another,
+    /// denser grid, edges included, weighted by area (trapezoidal, mean 1). No
+    /// point of the two grids is in both.
     ///
     /// # Errors
     /// An estimated error above the allowed one.
@@ -126,9 +128,27 @@ impl Table<'_> {
         };
         let centres = along(&|axis| axis.cell_centres(self.points));
         let nodes = along(&|axis| axis.nodes(intervals));
-        let tick = Tick { progress, done: AtomicUsize::new(0), total: self.points + intervals + 1 };
-        let (search, search_error) = self.split(&centres, &sample, &tick)?;
-        let (mut validation, validation_error) = self.split(&nodes, &sample, &tick)?;
+        let sampling = Sampling::of(self.recipe);
+        let splits_of_points = if sampling == Sampling::Adaptive { 2 } else { 1 };
+        let total = splits_of_points * self.points + intervals + 1;
+        let tick = Tick { progress, done: AtomicUsize::new(0), total };
+        let (search, search_error) = match sampling {
+            Sampling::Regular => self.grid(&centres, &sample, &tick)?,
+            Sampling::Jittered => {
+                let samples = jittered(self.points, self.axes.len(), self.sampling_seed());
+                self.scattered(samples, &sample, &tick)?
+            }
+            Sampling::LowDiscrepancy => {
+                self.scattered(low_discrepancy(self.points, self.axes.len()), &sample, &tick)?
+            }
+            Sampling::Adaptive => {
+                let (pilot, _) = self.grid(&centres, &sample, &tick)?;
+                let outputs = &pilot.columns[self.axes.len()..];
+                let samples = adaptive(self.points, self.axes.len(), outputs, self.sampling_seed());
+                self.scattered(samples, &sample, &tick)?
+            }
+        };
+        let (mut validation, validation_error) = self.grid(&nodes, &sample, &tick)?;
         validation.weights = self.area_weights(&nodes);
         let inputs = self.axes.iter().map(|axis| Column {
             name: axis.name.into(),
@@ -157,28 +177,59 @@ impl Table<'_> {
         Ok(dataset)
     }
 
+    fn sampling_seed(&self) -> u64 {
+        self.recipe.count(SAMPLING_SEED.name) as u64
+    }
+
     /// The function on a full grid, and the largest estimated error.
-    fn split<const N: usize>(
+    fn grid<const N: usize>(
         &self,
         along: &[Vec<f32>],
         sample: &(impl Fn(&[f64]) -> Sample<N> + Sync),
         tick: &Tick,
     ) -> Result<(Split, f64), Error> {
-        let (slowest, faster) = (&along[0], points_of_grid(&along[1..]));
-        let slices: Vec<Vec<Sample<N>>> = slowest
-            .par_iter()
-            .map(|&first| {
-                let slice = faster.iter().map(|rest| {
-                    let point: Vec<f64> =
-                        std::iter::once(&first).chain(rest).copied().map(f64::from).collect();
-                    sample(&point)
-                });
-                let slice = slice.collect();
+        let (mut split, error) =
+            self.split(&points_of_grid(along), along[0].len(), sample, tick)?;
+        split.grid = along.iter().map(Vec::len).collect();
+        Ok((split, error))
+    }
+
+    /// The function at points of the unit cube.
+    fn scattered<const N: usize>(
+        &self,
+        samples: Samples,
+        sample: &(impl Fn(&[f64]) -> Sample<N> + Sync),
+        tick: &Tick,
+    ) -> Result<(Split, f64), Error> {
+        let at = |point: &Vec<f64>| -> Vec<f32> {
+            self.axes.iter().zip(point).map(|(axis, &u)| axis.at(u)).collect()
+        };
+        let points: Vec<Vec<f32>> = samples.points.iter().map(at).collect();
+        let (mut split, error) = self.split(&points, self.points, sample, tick)?;
+        split.weights = samples.weights;
+        Ok((split, error))
+    }
+
+    /// The function at points, in so many slices of equal size.
+    fn split<const N: usize>(
+        &self,
+        points: &[Vec<f32>],
+        slices: usize,
+        sample: &(impl Fn(&[f64]) -> Sample<N> + Sync),
+        tick: &Tick,
+    ) -> Result<(Split, f64), Error> {
+        let at = |point: &Vec<f32>| {
+            let point: Vec<f64> = point.iter().copied().map(f64::from).collect();
+            sample(&point)
+        };
+        let slices: Vec<Vec<Sample<N>>> = points
+            .par_chunks(points.len().div_ceil(slices))
+            .map(|slice| {
+                let slice = slice.iter().map(at).collect();
                 tick.one_more();
                 slice
             })
             .collect();
-        let points = points_of_grid(along);
         let mut columns = vec![Vec::with_capacity(points.len()); self.axes.len() + N];
         let mut largest_error = 0.0_f64;
         for (point, sample) in points.iter().zip(slices.iter().flatten()) {
@@ -187,8 +238,7 @@ impl Table<'_> {
             let row = point.iter().copied().chain(sample.values.map(|value| value as f32));
             columns.iter_mut().zip(row).for_each(|(column, value)| column.push(value));
         }
-        let grid = along.iter().map(Vec::len).collect();
-        Ok((Split { columns, grid, ..Split::default() }, largest_error))
+        Ok((Split { columns, ..Split::default() }, largest_error))
     }
 
     fn area_weights(&self, along: &[Vec<f32>]) -> Vec<f32> {

@@ -8,6 +8,7 @@ mod dfg;
 mod disney_zh;
 mod lobe_plane;
 mod recipes;
+mod sampling;
 
 use std::path::{Path, PathBuf};
 

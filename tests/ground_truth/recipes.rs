@@ -23,6 +23,8 @@ fn recipes_read_back_and_explain_themselves() {
         (recipe.set("point", "3"), "did you mean `points`?"),
         (recipe.set("points", "1"), "a whole number from 2 to 1024"),
         (recipe.set("points", "many"), "a whole number from 2 to 1024"),
+        (recipe.set("sampling", "random"), "write `regular` or `jittered` or `low_discrepancy`"),
+        (recipe.set("sampling_seed", "-1"), "a whole number from 0 to 4294967295"),
     ];
     for (refusal, expected) in refusals {
         let error = refusal.unwrap_err().to_string();

@@ -1,0 +1,31 @@
+use crate::dataset::Dataset;
+
+/// Fewer rows to search on, for large tables.
+#[derive(clap::Args)]
+pub(super) struct Pruning {
+    /// Keep one row, with the weight of all, where no output varies by more than this share of
+    /// its range, as in --prune 0.01; validation keeps all
+    #[arg(long, value_name = "SHARE", value_parser = share)]
+    prune: Option<f64>,
+}
+
+impl Pruning {
+    /// The dataset pruned as asked for, its recipe saying so.
+    pub(super) fn applied_to(&self, mut dataset: Dataset) -> Dataset {
+        if let Some(share) = self.prune {
+            let rows = dataset.search.rows();
+            dataset.prune_flat_regions(share, 0);
+            let (kept, recipe) = (dataset.search.rows(), &dataset.recipe);
+            let separator = if recipe.contains(" // ") { ", " } else { " // " };
+            dataset.recipe = format!("{recipe}{separator}pruned at {share}: {kept} of {rows} rows");
+        }
+        dataset
+    }
+}
+
+fn share(text: &str) -> Result<f64, String> {
+    match text.parse() {
+        Ok(share) if (0.0..1.0).contains(&share) => Ok(share),
+        _ => Err("write a share of the outputs' range from 0 to below 1, as in 0.01".into()),
+    }
+}
