@@ -219,3 +219,19 @@ fn a_damaged_run_is_refused() {
     assert_eq!(output.status.code(), Some(3));
     assert!(text(&output.stderr).contains("checkpoint.bin"), "{}", text(&output.stderr));
 }
+
+#[test]
+fn weights_count_unless_another_measure_is_asked_for() {
+    let folder = TempDir::new().unwrap();
+    // A constant's best value is the mean: 1/2, or 9/10 as the rows are weighted.
+    let rows: String = (0..80).map(|i| format!("{i},{},{}\n", i % 2, 1 + 8 * (i % 2))).collect();
+    std::fs::write(folder.path().join("steps.csv"), format!("x,y,weight\n{rows}")).unwrap();
+    let imported = lgp(folder.path(), &["import", "steps.csv", "-o", "steps.bin", "--inputs", "x"]);
+    assert!(imported.status.success(), "{}", text(&imported.stderr));
+    for (options, mean) in [(&[][..], 0.9), (&["--loss", "rmse"], 0.5)] {
+        let fit = [&["fit", "y = $c", "steps.bin", "--json"], options].concat();
+        let fitted: Value = serde_json::from_slice(&lgp(folder.path(), &fit).stdout).unwrap();
+        let c = fitted["constants"]["c"].as_f64().unwrap();
+        assert!((c - mean).abs() < 0.05, "{options:?}: {c}");
+    }
+}

@@ -22,9 +22,10 @@ pub struct Args {
     dataset: PathBuf,
     #[command(flatten)]
     columns: Columns,
-    /// What is made small: rmse, max, weighted (by the dataset's weights) or relative
-    #[arg(long, value_name = "MEASURE", default_value_t = Measure::Rmse)]
-    loss: Measure,
+    /// What is made small: rmse, max, weighted (by the dataset's weights) or relative [default: rmse,
+    /// or weighted where the dataset has weights]
+    #[arg(long, value_name = "MEASURE")]
+    loss: Option<Measure>,
     /// Where constants start, as in a=2.5,b=1 [default: 1]
     #[arg(long, value_name = "NAME=X", value_delimiter = ',', value_parser = start)]
     #[arg(allow_hyphen_values = true)]
@@ -59,7 +60,8 @@ pub fn run(args: &Args, common: &Common) -> Result<(), Failure> {
         return Err(Failure::usage(message));
     }
     let dataset = whole.select(Some(&names.inputs), Some(&names.outputs))?;
-    let samples = args.loss.all_samples(&dataset.search, dataset.inputs.len());
+    let measure = args.loss.unwrap_or(Measure::usual(&dataset.search));
+    let samples = measure.all_samples(&dataset.search, dataset.inputs.len());
     let mut draft = program.into_draft();
     let mut parameters: Vec<Parameter> = free
         .iter()
@@ -79,7 +81,7 @@ pub fn run(args: &Args, common: &Common) -> Result<(), Failure> {
         let value = &mut draft.consts[parameter.index];
         *value = value.clamp(low, high);
     }
-    let loss = fit_model(&mut draft, &samples, &parameters, args.loss, args.starts, common.seed);
+    let loss = fit_model(&mut draft, &samples, &parameters, measure, args.starts, common.seed);
     if !loss.is_finite() {
         let message = "the model is not finite on every sample from any start; give others by --start, or --bounds";
         return Err(Failure::new(Exit::Input, anyhow::Error::msg(message)));
@@ -89,7 +91,7 @@ pub fn run(args: &Args, common: &Common) -> Result<(), Failure> {
         .zip(&parameters)
         .map(|(name, parameter)| (*name, draft.consts[parameter.index]))
         .collect();
-    show(args, common, draft_member(draft, &dataset, &profile, &names)?, constants, &names)
+    show(measure, common, draft_member(draft, &dataset, &profile, &names)?, constants, &names)
 }
 
 fn draft_member(
@@ -103,7 +105,7 @@ fn draft_member(
 }
 
 fn show(
-    args: &Args,
+    measure: Measure,
     common: &Common,
     member: FrontMember,
     constants: BTreeMap<&str, f32>,
@@ -114,7 +116,7 @@ fn show(
     let record = MemberRecord::new(&member, names);
     debug_assert_eq!(record.formula, print(&member.program, names));
     text += "\n";
-    text += &front_table(&Front { measure: args.loss, members: vec![member] }, &[], &names.outputs);
+    text += &front_table(&Front { measure, members: vec![member] }, &[], &names.outputs);
     common.result(&Fitted { constants, member: record }, &text)
 }
 

@@ -45,9 +45,10 @@ pub struct Args {
     #[arg(long, value_name = "C", default_value_t = 40.0, value_parser = budget)]
     #[arg(allow_hyphen_values = true)]
     max_cost: f64,
-    /// What is made small: rmse, max, weighted (by the dataset's weights) or relative
-    #[arg(long, value_name = "MEASURE", default_value_t = Measure::Rmse)]
-    loss: Measure,
+    /// What is made small: rmse, max, weighted (by the dataset's weights) or relative [default: rmse,
+    /// or weighted where the dataset has weights]
+    #[arg(long, value_name = "MEASURE")]
+    loss: Option<Measure>,
     /// What every formula must be: range=0..1, rising=INPUT, falling=INPUT, ends=INPUT (exact where
     /// an input's domain ends), uses=OPERATION or INPUT; `bias.range=0..1` is for one output
     #[arg(long, value_name = "CONDITION", value_delimiter = ',')]
@@ -93,7 +94,7 @@ pub fn run(args: &Args, common: &Common) -> Result<(), Failure> {
         seed: common.seed,
         islands: args.islands.into(),
         max_cost: args.max_cost,
-        measure: args.loss,
+        measure: args.loss.unwrap_or(Measure::usual(&dataset.search)),
         requirements: requirements(args, &dataset)?,
         transforms: transforms(&args.transform, &dataset)?,
         ..Settings::default()
@@ -158,7 +159,7 @@ fn requirements(args: &Args, dataset: &Dataset) -> Result<Vec<Requirement>, Fail
     };
     let requirements: Vec<Requirement> = args.require.iter().map(read).collect::<Result<_, _>>()?;
     let ends = requirements.iter().any(|one| matches!(one, Requirement::Ends { .. }));
-    if ends && args.loss == Measure::Relative {
+    if ends && args.loss == Some(Measure::Relative) {
         let message = "--require ends=… goes with --loss rmse, max or weighted, not relative";
         return Err(Failure::usage(message));
     }

@@ -25,6 +25,11 @@ impl Measure {
     pub const ALL: [Measure; 4] =
         [Measure::Rmse, Measure::Max, Measure::Weighted, Measure::Relative];
 
+    /// What is made small where nothing else is asked for: weights that the data have are meant.
+    pub fn usual(split: &Split) -> Measure {
+        if split.weights.is_empty() { Measure::Rmse } else { Measure::Weighted }
+    }
+
     /// Samples of some rows of a split, weighted so that what is to be made small is
     /// their weighted sum of squares.
     ///
