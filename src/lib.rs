@@ -17,7 +17,7 @@
 //! | [`dataset`] | tables of samples, their files, the incumbents |
 //! | [`grammar`], [`cost`] | what may be written, what it costs on a GPU; their `.ron` files |
 //! | [`eval`] | the data-parallel interpreter, losses, normal equations, scores; the same programs in f64, f16, intervals |
-//! | [`fit`] | derivatives by constants, Levenberg–Marquardt, constants with few digits |
+//! | [`fit`] | error measures; derivatives by constants, Levenberg–Marquardt, the least maximum; constants with few digits; models of one's own |
 //! | [`archive`], [`search`] | the Pareto archive; islands, variation, fronts; runs on disk, their union, what recurs |
 //! | [`emit`] | formulas as HLSL, WGSL, GLSL, MSL, and back; as C, Rust, Python, LaTeX |
 //! | [`quadrature`], [`microfacet`], [`targets`] | integration, BRDF models, ground truths |

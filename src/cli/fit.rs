@@ -3,7 +3,7 @@ use super::{Common, Exit, Failure, columns::Columns};
 use crate::cost::Profile;
 use crate::dataset::Dataset;
 use crate::fit::{Measure, Parameter, fit_model};
-use crate::program::{Names, Parsed, Program, print};
+use crate::program::{Draft, Names, Parsed, Program};
 use crate::report::table::front_table;
 use crate::search::{Front, FrontMember, MemberRecord};
 use crate::suggest::did_you_mean;
@@ -95,7 +95,7 @@ pub fn run(args: &Args, common: &Common) -> Result<(), Failure> {
 }
 
 fn draft_member(
-    draft: crate::program::Draft,
+    draft: Draft,
     dataset: &Dataset,
     profile: &Profile,
     names: &Names,
@@ -114,7 +114,6 @@ fn show(
     let mut text: String =
         constants.iter().map(|(name, value)| format!("{name:>8} = {value}\n")).collect();
     let record = MemberRecord::new(&member, names);
-    debug_assert_eq!(record.formula, print(&member.program, names));
     text += "\n";
     text += &front_table(&Front { measure, members: vec![member] }, &[], &names.outputs);
     common.result(&Fitted { constants, member: record }, &text)
