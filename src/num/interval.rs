@@ -72,6 +72,14 @@ impl Interval {
         }
     }
 
+    /// Of its numbers those of another interval; all of them if none is.
+    #[must_use]
+    pub fn narrowed(self, other: Interval) -> Interval {
+        let narrow =
+            Interval { low: self.low.max(other.low), high: self.high.min(other.high), ..self };
+        if narrow.is_empty() { self } else { narrow }
+    }
+
     /// Of its numbers those within the bounds; NaN where there are others.
     #[must_use]
     pub fn restricted(self, low: f32, high: f32) -> Interval {

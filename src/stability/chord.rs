@@ -1,0 +1,180 @@
+//! Functions of one argument as straight lines with an error, on an interval.
+
+use super::form::Form;
+use crate::eval::{Arithmetic, Bounds};
+use crate::num::Interval;
+use crate::op::Op;
+use std::f64::consts::{LN_2, LOG2_E};
+
+/// A function that is convex or concave on an interval, and its derivative.
+struct Curve<'a> {
+    value: &'a dyn Fn(f64) -> f64,
+    slope: &'a dyn Fn(f64) -> f64,
+    /// Where the slope is as given; nearly will do.
+    where_slope: &'a dyn Fn(f64) -> f64,
+    convex: bool,
+}
+
+/// `f(x)` for x of the form within the bounds; nothing where no line is known that comes near.
+pub(super) fn image(op: Op, x: Form, bounds: Interval) -> Option<Form> {
+    let (low, high) = (f64::from(bounds.low()), f64::from(bounds.high()));
+    match op {
+        Op::Rcp if low > 0.0 || high < 0.0 => {
+            let sign = low.signum();
+            let curve = Curve {
+                value: &|x| 1.0 / x,
+                slope: &|x| -1.0 / (x * x),
+                where_slope: &|p| sign * (-1.0 / p).sqrt(),
+                convex: sign > 0.0,
+            };
+            curve.image(x, low, high)
+        }
+        Op::Sqrt => {
+            let curve = Curve {
+                value: &f64::sqrt,
+                slope: &|x| 0.5 / x.sqrt(),
+                where_slope: &|p| 0.25 / (p * p),
+                convex: false,
+            };
+            curve.image(x, low.max(0.0), high)
+        }
+        Op::Exp2 => {
+            let curve = Curve {
+                value: &f64::exp2,
+                slope: &|x| LN_2 * x.exp2(),
+                where_slope: &|p| (p * LOG2_E).log2(),
+                convex: true,
+            };
+            curve.image(x, low, high)
+        }
+        Op::Exp => {
+            let curve =
+                Curve { value: &f64::exp, slope: &f64::exp, where_slope: &f64::ln, convex: true };
+            curve.image(x, low, high)
+        }
+        Op::Log2 if low > 0.0 => {
+            let curve = Curve {
+                value: &f64::log2,
+                slope: &|x| LOG2_E / x,
+                where_slope: &|p| LOG2_E / p,
+                convex: false,
+            };
+            curve.image(x, low, high)
+        }
+        Op::Log if low > 0.0 => {
+            let curve = Curve {
+                value: &f64::ln,
+                slope: &|x| 1.0 / x,
+                where_slope: &|p| 1.0 / p,
+                convex: false,
+            };
+            curve.image(x, low, high)
+        }
+        Op::Sin | Op::Cos | Op::Tan | Op::Asin | Op::Acos | Op::Atan | Op::Tanh => {
+            by_derivative(op, x, bounds)
+        }
+        _ => None,
+    }
+}
+
+/// `x²`.
+pub(super) fn square(x: Form, bounds: Interval) -> Form {
+    let (low, high) = (f64::from(bounds.low()), f64::from(bounds.high()));
+    let middle = low / 2.0 + high / 2.0;
+    let magnitude = low.abs().max(high.abs()).powi(2);
+    x.mapped(low + high, -middle * middle, -low * high, magnitude)
+}
+
+/// `|x|`.
+pub(super) fn absolute(x: Form, bounds: Interval) -> Form {
+    let (low, high) = (f64::from(bounds.low()), f64::from(bounds.high()));
+    if low >= 0.0 {
+        return x;
+    }
+    if high <= 0.0 {
+        return x.negated();
+    }
+    let chord = (high + low) / (high - low);
+    x.mapped(chord, 0.0, -low * (1.0 + chord), high - low)
+}
+
+/// The larger, given bounds of a − b.
+pub(super) fn maximum(a: Form, b: Form, difference: Interval) -> Form {
+    let (low, high) = (f64::from(difference.low()), f64::from(difference.high()));
+    if low >= 0.0 {
+        return a;
+    }
+    if high <= 0.0 {
+        return b;
+    }
+    // b + max(a − b, 0), whose chord is above it, most at the kink.
+    let chord = high / (high - low);
+    a.mapped(chord, 0.0, -chord * low, high - low).plus(b.mapped(1.0 - chord, 0.0, 0.0, 0.0))
+}
+
+impl Curve<'_> {
+    /// The line of least error: parallel to the chord, halfway to the tangent.
+    fn image(&self, x: Form, low: f64, high: f64) -> Option<Form> {
+        let (first, last) = ((self.value)(low), (self.value)(high));
+        let chord = match high - low {
+            width if width > 1e-30 => (last - first) / width,
+            _ => (self.slope)(low),
+        };
+        if !(first.is_finite() && last.is_finite() && chord.is_finite()) {
+            return None;
+        }
+        // Any tangent bounds the function, that at a point of the interval well.
+        let touch = (self.where_slope)(chord);
+        let touch = if touch.is_nan() { low / 2.0 + high / 2.0 } else { touch.clamp(low, high) };
+        let (value, slope) = ((self.value)(touch), (self.slope)(touch));
+        if !slope.is_finite() {
+            return None;
+        }
+        let above_line = |x: f64, value: f64| value - chord * x;
+        let ends = [above_line(low, first), above_line(high, last)];
+        let tangent = [low, high].map(|x| above_line(x, value + slope * (x - touch)));
+        let least = |values: [f64; 2]| values[0].min(values[1]);
+        let most = |values: [f64; 2]| values[0].max(values[1]);
+        let (below, above) = match self.convex {
+            true => (least(tangent), most(ends)),
+            false => (least(ends), most(tangent)),
+        };
+        let reach = low.abs().max(high.abs());
+        let magnitude = first.abs().max(last.abs()) + (chord.abs() + slope.abs()) * reach;
+        Some(x.mapped(chord, below.min(above), above.max(below), magnitude))
+    }
+}
+
+/// The line through the middle whose slope is the middle of the derivative's bounds.
+fn by_derivative(op: Op, x: Form, bounds: Interval) -> Option<Form> {
+    let of = |op: Op, x: Interval| Bounds.apply(op, [x; 4]);
+    let one = Interval::new(1.0, 1.0);
+    let square = |x: Interval| of(Op::Abs, x).times(of(Op::Abs, x));
+    let derivative = match op {
+        Op::Sin => of(Op::Cos, bounds),
+        Op::Cos => of(Op::Sin, bounds).negated(),
+        Op::Tan => one.plus(square(of(Op::Tan, bounds))),
+        Op::Atan => one.over(one.plus(square(bounds))),
+        Op::Tanh => one.plus(square(of(Op::Tanh, bounds)).negated()),
+        Op::Asin => of(Op::Rsqrt, one.plus(square(bounds).negated())),
+        Op::Acos => of(Op::Rsqrt, one.plus(square(bounds).negated())).negated(),
+        _ => return None,
+    };
+    let line = Form::around(derivative).filter(|_| !derivative.may_be_nan())?;
+    let (low, high) = (f64::from(bounds.low()), f64::from(bounds.high()));
+    let middle = low / 2.0 + high / 2.0;
+    let value = match op {
+        Op::Sin => middle.sin(),
+        Op::Cos => middle.cos(),
+        Op::Tan => middle.tan(),
+        Op::Atan => middle.atan(),
+        Op::Tanh => middle.tanh(),
+        Op::Asin => middle.asin(),
+        _ => middle.acos(),
+    };
+    let slope = f64::from(derivative.low()) / 2.0 + f64::from(derivative.high()) / 2.0;
+    let error = line.radius() * (high / 2.0 - low / 2.0);
+    let offset = value - slope * middle;
+    let magnitude = value.abs() + slope.abs() * middle.abs() + error;
+    Some(x.mapped(slope, offset - error, offset + error, magnitude))
+}

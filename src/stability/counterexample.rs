@@ -1,0 +1,94 @@
+//! Inputs at which claims fail, by looking.
+
+use super::Claim;
+use crate::num::Interval;
+use crate::program::Program;
+
+/// Inputs tried on a grid over the domain, its corners and edges among them.
+const GRID: f64 = 4096.0;
+
+/// Steps by which a failure found is made worse.
+const CLIMBS: usize = 60;
+
+/// For each claim an input that refutes it, if one is found, and the value there: a number where
+/// some number fails, the worst nearby.
+pub(super) fn search(
+    program: &Program,
+    domain: &[Interval],
+    claims: &[Claim],
+    slack: f64,
+) -> Vec<Option<(Vec<f32>, f32)>> {
+    let sides = domain.iter().filter(|side| side.low() < side.high()).count().max(1);
+    let per_side = (GRID.powf(1.0 / sides as f64) as usize).clamp(2, 1025);
+    let axes: Vec<Vec<f32>> = domain.iter().map(|&side| points(side, per_side)).collect();
+    let mut worst: Vec<Option<(f64, Vec<f32>)>> = vec![None; claims.len()];
+    let mut input = vec![0.0; domain.len()];
+    for index in 0..axes.iter().map(Vec::len).product() {
+        let mut rest: usize = index;
+        for (x, axis) in input.iter_mut().zip(&axes) {
+            *x = axis[rest % axis.len()];
+            rest /= axis.len();
+        }
+        let values = program.evaluate(&input);
+        for (claim, worst) in claims.iter().zip(&mut worst) {
+            let rank = rank(claim, values[claim.output], slack);
+            if rank > worst.as_ref().map_or(0.0, |(known, _)| *known) {
+                *worst = Some((rank, input.clone()));
+            }
+        }
+    }
+    let finished = claims.iter().zip(worst).map(|(claim, worst)| {
+        let (rank, input) = worst?;
+        let input = climbed(program, domain, claim, slack, per_side, (rank, input));
+        let value = program.evaluate(&input)[claim.output];
+        Some((input, value))
+    });
+    finished.collect()
+}
+
+/// More is worse, and every number that fails is worse than NaN: it says more.
+fn rank(claim: &Claim, value: f32, slack: f64) -> f64 {
+    let excess = claim.excess(value, slack);
+    if value.is_nan() { f64::MIN_POSITIVE } else { excess }
+}
+
+fn points(side: Interval, count: usize) -> Vec<f32> {
+    let (low, high) = (f64::from(side.low()), f64::from(side.high()));
+    if low == high {
+        return vec![side.low()];
+    }
+    let at = |i: usize| low + (high - low) * (i as f64 / (count - 1) as f64);
+    (0..count).map(|i| (at(i) as f32).clamp(side.low(), side.high())).collect()
+}
+
+/// A worse failure beside one, coordinate by coordinate, with steps that shrink.
+fn climbed(
+    program: &Program,
+    domain: &[Interval],
+    claim: &Claim,
+    slack: f64,
+    per_side: usize,
+    (mut known, mut input): (f64, Vec<f32>),
+) -> Vec<f32> {
+    let mut share = 1.0 / (per_side - 1).max(1) as f32;
+    for _ in 0..CLIMBS {
+        let mut better = false;
+        for i in 0..input.len() {
+            for sign in [-1.0, 1.0] {
+                let (before, side) = (input[i], domain[i]);
+                let step = sign * share * (side.high() - side.low());
+                input[i] = (before + step).clamp(side.low(), side.high());
+                let rank = rank(claim, program.evaluate(&input)[claim.output], slack);
+                if rank > known && rank.is_finite() {
+                    (known, better) = (rank, true);
+                } else {
+                    input[i] = before;
+                }
+            }
+        }
+        if !better {
+            share /= 2.0;
+        }
+    }
+    input
+}

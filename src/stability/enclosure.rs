@@ -1,0 +1,234 @@
+//! Programs on boxes: every value that each instruction can give there.
+
+use super::chord;
+use super::form::Form;
+use super::rounding::{HUGE, Rounding, flushed};
+use crate::eval::{Arithmetic, Bounds};
+use crate::num::Interval;
+use crate::op::{MAX_ARITY, Op};
+use crate::program::{Arg, Program};
+
+/// Bounds of a value, and how it varies over the box.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Enclosed {
+    pub bounds: Interval,
+    /// Describes the value wherever that is a number; none where it may be infinite.
+    form: Option<Form>,
+}
+
+/// Evaluates programs on boxes: interval arithmetic rounded outward, narrowed by affine forms, whose
+/// excess falls with the square of the box's width.
+#[derive(Clone, Debug)]
+pub struct Enclosure {
+    rounding: Rounding,
+    inputs: Vec<Enclosed>,
+    results: Vec<Enclosed>,
+}
+
+impl Enclosure {
+    pub fn new(rounding: Rounding) -> Enclosure {
+        Enclosure { rounding, inputs: Vec::new(), results: Vec::new() }
+    }
+
+    /// Encloses every instruction of a program where each input is any number of its interval.
+    ///
+    /// # Panics
+    /// If `domain` has not one interval for each input.
+    pub fn evaluate(&mut self, program: &Program, domain: &[Interval]) {
+        assert_eq!(domain.len(), program.inputs, "one interval for each input");
+        self.inputs.clear();
+        self.results.clear();
+        for (i, &bounds) in domain.iter().enumerate() {
+            let bounds = self.stored(bounds);
+            self.inputs.push(Enclosed { bounds, form: Form::input(i, bounds) });
+        }
+        for instr in &program.instrs {
+            let args = instr.args();
+            let first = self.value(program, args[0]);
+            let mut arguments = [first; MAX_ARITY];
+            for (to, &arg) in arguments.iter_mut().zip(args) {
+                *to = self.value(program, arg);
+            }
+            let square = args.len() > 1 && args[0] == args[1];
+            let result = apply(self.rounding, instr.op(), arguments, square);
+            self.results.push(result);
+        }
+    }
+
+    /// What an instruction can give on the box last evaluated.
+    ///
+    /// # Panics
+    /// If there is no such instruction.
+    pub fn instruction(&self, index: usize) -> Interval {
+        self.results[index].bounds
+    }
+
+    /// What an argument or output can be on the box last evaluated.
+    pub fn bounds(&self, program: &Program, arg: Arg) -> Interval {
+        self.value(program, arg).bounds
+    }
+
+    /// How far an argument or output varies with an input, where that is known.
+    pub(super) fn slope(&self, program: &Program, arg: Arg, input: usize) -> f64 {
+        self.value(program, arg).form.map_or(0.0, |form| form.slope(input))
+    }
+
+    fn value(&self, program: &Program, arg: Arg) -> Enclosed {
+        match arg {
+            Arg::Input(i) => self.inputs[usize::from(i)],
+            Arg::Result(i) => self.results[usize::from(i)],
+            Arg::Const(i) => {
+                let bounds = self.stored(Bounds.constant(program.consts[usize::from(i)]));
+                Enclosed { bounds, form: Form::around(bounds) }
+            }
+        }
+    }
+
+    fn stored(&self, bounds: Interval) -> Interval {
+        if self.rounding == Rounding::Gpu { flushed(bounds) } else { bounds }
+    }
+}
+
+impl Enclosed {
+    /// What both bounds and form allow.
+    fn new(bounds: Interval, form: Option<Form>) -> Enclosed {
+        let bounds = form.map_or(bounds, |form| bounds.narrowed(form.bounds()));
+        // Where the form knows less, what it says of inputs is worth little.
+        let plain = Form::around(bounds);
+        let form = match (form, plain) {
+            (Some(form), Some(plain)) if plain.radius() > form.radius() / 2.0 => Some(form),
+            _ => plain,
+        };
+        Enclosed { bounds, form }
+    }
+}
+
+/// What an operation gives; `square` where its first two arguments are one.
+fn apply(rounding: Rounding, op: Op, arguments: [Enclosed; MAX_ARITY], square: bool) -> Enclosed {
+    let [a, b, c, d] = arguments;
+    let step = |op: Op, arguments: &[Enclosed]| {
+        let mut all = [arguments[0]; MAX_ARITY];
+        all[..arguments.len()].copy_from_slice(arguments);
+        apply(rounding, op, all, false)
+    };
+    match op {
+        Op::Pow => step(Op::Exp2, &[step(Op::Mul, &[b, step(Op::Log2, &[a])])]),
+        Op::Mad if rounding == Rounding::Gpu => {
+            step(Op::Add, &[apply(rounding, Op::Mul, arguments, square), c])
+        }
+        Op::Tan if rounding == Rounding::Gpu => {
+            step(Op::Div, &[step(Op::Sin, &[a]), step(Op::Cos, &[a])])
+        }
+        Op::Lerp => {
+            let fused = step(Op::Mad, &[c, step(Op::Sub, &[b, a]), a]);
+            if rounding == Rounding::Exact {
+                return fused;
+            }
+            let one = Interval::new(1.0, 1.0);
+            let one = Enclosed { bounds: one, form: Form::around(one) };
+            let rest = step(Op::Sub, &[one, c]);
+            let sum = step(Op::Add, &[step(Op::Mul, &[a, rest]), step(Op::Mul, &[b, c])]);
+            hull(fused, sum)
+        }
+        Op::Select => select([a, b], c, d),
+        _ => {
+            let bounds = bounds(rounding, op, arguments, square);
+            let form = form(op, arguments, square).map(|form| {
+                let reach = f64::from(bounds.narrowed(form.bounds()).abs().high());
+                let error = rounding.error(op, arguments.map(|argument| argument.bounds));
+                // The value before rounding may reach a little further.
+                form.widened(error.of(reach + error.of(reach)))
+            });
+            Enclosed::new(bounds, form.filter(|_| describes(rounding, op, a.bounds, b.bounds)))
+        }
+    }
+}
+
+/// Whether the operation with its stated error is all that can happen.
+fn describes(rounding: Rounding, op: Op, a: Interval, b: Interval) -> bool {
+    let reach = a.abs().high();
+    match (op, rounding) {
+        (Op::Sin | Op::Cos, Rounding::Gpu) => f64::from(reach) <= std::f64::consts::PI,
+        (Op::Sin | Op::Cos | Op::Tan, _) => reach <= 1e4,
+        (Op::Min | Op::Max, Rounding::Gpu) => !a.may_be_nan() && !b.may_be_nan(),
+        (Op::Saturate, Rounding::Gpu) => !a.may_be_nan(),
+        (Op::Rcp, Rounding::Gpu) => reach < HUGE,
+        (Op::Div, Rounding::Gpu) => b.abs().high() < HUGE,
+        _ => true,
+    }
+}
+
+fn bounds(rounding: Rounding, op: Op, arguments: [Enclosed; MAX_ARITY], square: bool) -> Interval {
+    let [a, b, c, d] = arguments.map(|argument| argument.bounds);
+    // Of two equal signs, a product is that of the absolute values.
+    let (a, b) = match op {
+        Op::Mul | Op::Mad if square && !a.is_empty() => (a.abs(), a.abs()),
+        _ => (a, b),
+    };
+    rounding.bounds(op, [a, b, c, d])
+}
+
+/// The operation without its rounding, as an affine form.
+fn form(op: Op, arguments: [Enclosed; MAX_ARITY], square: bool) -> Option<Form> {
+    let x = arguments[0].bounds;
+    let [a, b, c, _] = arguments.map(|argument| argument.form);
+    let product = || match square {
+        true => Some(chord::square(a?, x)),
+        false => Some(a?.times(b?)),
+    };
+    let larger = |a: Form, b: Form| chord::maximum(a, b, a.minus(b).bounds());
+    let smaller = |a: Form, b: Form| larger(a.negated(), b.negated()).negated();
+    match op {
+        Op::Add => Some(a?.plus(b?)),
+        Op::Sub => Some(a?.minus(b?)),
+        Op::Neg => Some(a?.negated()),
+        Op::Mul => product(),
+        Op::Mad => Some(product()?.plus(c?)),
+        Op::Div => Some(a?.times(chord::image(Op::Rcp, b?, arguments[1].bounds)?)),
+        Op::Rsqrt => {
+            let root = chord::image(Op::Sqrt, a?, x)?;
+            let bounds = Bounds.apply(Op::Sqrt, [x; MAX_ARITY]).widened(1);
+            chord::image(Op::Rcp, root, bounds)
+        }
+        Op::Abs => Some(chord::absolute(a?, x)),
+        Op::Max => Some(larger(a?, b?)),
+        Op::Min => Some(smaller(a?, b?)),
+        Op::Saturate => {
+            let [zero, one] = [0.0, 1.0].map(|x| Form::around(Interval::new(x, x)));
+            Some(smaller(larger(a?, zero?), one?))
+        }
+        Op::Floor | Op::Fract if x.low().floor() == x.high().floor() => {
+            let whole = f64::from(x.low().floor());
+            match op {
+                Op::Floor => Some(a?.mapped(0.0, whole, whole, 0.0)),
+                _ => Some(a?.mapped(1.0, -whole, -whole, whole.abs())),
+            }
+        }
+        _ => chord::image(op, a?, x),
+    }
+}
+
+/// `yes` where a < b, else `no`.
+fn select([a, b]: [Enclosed; 2], yes: Enclosed, no: Enclosed) -> Enclosed {
+    let nan = a.bounds.may_be_nan() || b.bounds.may_be_nan();
+    let difference = match (a.form, b.form) {
+        (Some(a), Some(b)) => a.minus(b).bounds(),
+        _ => Interval::LINE,
+    };
+    let numbers = !a.bounds.is_empty() && !b.bounds.is_empty();
+    let may_hold = numbers && a.bounds.low() < b.bounds.high() && difference.low() < 0.0;
+    let may_fail = nan || a.bounds.high() >= b.bounds.low() && difference.high() >= 0.0;
+    match (may_hold, may_fail) {
+        (true, false) => yes,
+        (false, _) => no,
+        (true, true) => hull(yes, no),
+    }
+}
+
+fn hull(a: Enclosed, b: Enclosed) -> Enclosed {
+    let form = match (a.form, b.form) {
+        (Some(first), Some(second)) => Some(first.hull(second)),
+        _ => None,
+    };
+    Enclosed::new(a.bounds.hull(b.bounds), form)
+}

@@ -1,0 +1,34 @@
+//! Verdicts: what is known of a formula's behaviour wherever its inputs are in their domain.
+//!
+//! [`prove`] decides claims ([`Claim`]: finite, at least, at most) by branch and bound over the
+//! domain's box: each is proved, refuted with an input that does it, or left open. An
+//! [`Enclosure`] bounds every instruction of a program on a box, for the interpreter's `f32` or for
+//! any arithmetic that GPUs are allowed ([`Rounding`]).
+//!
+//! ```
+//! use lgp::num::Interval;
+//! use lgp::program::{Names, parse};
+//! use lgp::stability::{Bound, Claim, Limits, Rounding, Status, prove};
+//! let program = parse("y = x*(1 - x) + 0.1/x", &Names::new(["x"], ["y"]))?;
+//! let claims = [Bound::Finite, Bound::AtLeast(0.0), Bound::AtMost(0.3)].map(|b| Claim::of(0, b));
+//! let prove = |low| {
+//!     let domain = [Interval::new(low, 1.0)];
+//!     prove(&program, &domain, &claims, &Limits::new(Rounding::Gpu))
+//! };
+//! let found = prove(0.5);
+//! assert_eq!(found[..2], [Status::Proved, Status::Proved]);
+//! assert!(matches!(found[2], Status::Refuted { .. }));
+//! assert!(matches!(prove(0.0)[0], Status::Refuted { ref input, .. } if *input == [0.0]));
+//! # Ok::<(), lgp::program::ParseError>(())
+//! ```
+
+mod chord;
+mod counterexample;
+mod enclosure;
+mod form;
+mod prove;
+mod rounding;
+
+pub use enclosure::Enclosure;
+pub use prove::{Bound, Claim, Limits, Status, prove};
+pub use rounding::Rounding;
