@@ -26,6 +26,9 @@ use std::time::{Duration, Instant};
 /// Each traced moment is this many times later than the one before.
 const TRACE_RATIO: f64 = 1.2;
 
+/// Cycles up to which all formulas are tried first, as `lgp search` does.
+const ENUMERATED: f64 = 1.0;
+
 #[derive(Parser)]
 struct Args {
     /// Which datasets [default: all]: dfg, bias, scale, and the bench's own functions
@@ -84,6 +87,7 @@ fn main() -> Result<(), Box<dyn Error>> {
             measure(&args, case, &profile, seed)?;
         }
     }
+    std::fs::create_dir_all(&args.out)?;
     summary::write(&args.out, &cases)
 }
 
@@ -166,6 +170,7 @@ fn measure(args: &Args, case: &Case, profile: &Profile, seed: u64) -> Result<(),
     let start = Instant::now();
     let problem = Problem::new(&case.dataset, &grammar, profile, &settings);
     let mut search = Search::new(settings);
+    search.enumerate(&problem, ENUMERATED);
     clock += start.elapsed();
     let mut trace: Vec<TracePoint> = Vec::new();
     for &budget in &args.budgets {

@@ -31,9 +31,31 @@ const HOPELESS: f64 = 6.0;
 /// The subset's error estimates the whole table's to within this share.
 const SUBSET_TOLERANCE: f64 = 1.15;
 
-/// Shares of the cost budget that islands have. A cheap formula is soon as good as it gets where
-/// nothing dearer competes; from there it migrates to islands that may spend more.
-const BUDGET_SHARES: [f64; 8] = [1.0, 0.3, 0.6, 0.2, 1.0, 0.4, 1.0, 0.8];
+/// What sets islands apart.
+struct Way {
+    /// Of the cost budget. A cheap formula is soon as good as it gets where nothing dearer competes;
+    /// from there it migrates to islands that may spend more.
+    share: f64,
+    /// Individuals compete within their family only.
+    by_family: bool,
+}
+
+const WAYS: [Way; 8] = [
+    Way { share: 1.0, by_family: false },
+    Way { share: 0.3, by_family: true },
+    Way { share: 0.6, by_family: false },
+    Way { share: 0.2, by_family: false },
+    Way { share: 1.0, by_family: false },
+    Way { share: 0.4, by_family: false },
+    Way { share: 1.0, by_family: false },
+    Way { share: 0.8, by_family: true },
+];
+
+/// Of the cost budget, for the number of candidates.
+const LEAST_SHARE: f64 = 0.1;
+
+/// Where families are kept apart, a bucket has this share of the size that it would have.
+const FAMILY_BUCKET: f64 = 0.5;
 
 #[derive(Clone, Debug, Serialize, Deserialize)]
 pub(super) struct Island {
@@ -62,13 +84,13 @@ struct Workshop {
 
 impl Island {
     pub fn new(number: usize, settings: &Settings) -> Island {
-        let share = BUDGET_SHARES[number % BUDGET_SHARES.len()];
+        let Way { share, by_family } = WAYS[number % WAYS.len()];
         let max_cost = (settings.max_cost * share).ceil();
         // As many individuals on each island.
         let crowd = settings.bucket_size as f64 * (settings.max_cost + 1.0);
-        let bucket_size = (crowd / (max_cost + 1.0)).round() as usize;
+        let size = crowd / (max_cost + 1.0) * if by_family { FAMILY_BUCKET } else { 1.0 };
         Island {
-            population: Population::new(max_cost, bucket_size),
+            population: Population::new(max_cost, by_family, size.round().max(1.0) as usize),
             archive: Archive::default(),
             counts: Counts::default(),
             seen: vec![0; MEMORY],
@@ -80,7 +102,7 @@ impl Island {
     pub fn generation(&mut self, problem: &Problem, settings: &Settings, stream: u64) {
         let mut rng = ChaCha8Rng::seed_from_u64(settings.seed);
         rng.set_stream(stream);
-        for _ in 0..settings.candidates {
+        for _ in 0..self.candidates(settings) {
             self.counts.considered += 1;
             self.conceive(&mut rng, problem);
             for (output, transform) in problem.transforms() {
@@ -88,6 +110,13 @@ impl Island {
             }
             self.consider(problem);
         }
+    }
+
+    /// A fit takes a time that grows with instructions times constants, so about with the square of the
+    /// cost: islands that spend less consider more, and none waits long for the others.
+    fn candidates(&self, settings: &Settings) -> usize {
+        let share = self.population.max_cost / settings.max_cost.max(1.0);
+        (settings.candidates as f64 / share.clamp(LEAST_SHARE, 1.0).powi(2)) as usize
     }
 
     /// Makes a child of the population, or a random draft where there is none.
@@ -132,7 +161,7 @@ impl Island {
             self.counts.inadmissible += 1;
             return;
         }
-        let admission = self.population.admission(cost);
+        let admission = self.population.admission(candidate, cost);
         let subset = &problem.subset;
         let scale = 1.0 / subset.total_weight();
         let loss = fitter.fit(candidate, subset, FIRST_STEPS) * scale;

@@ -44,7 +44,8 @@ pub struct Settings {
     pub seed: u64,
     /// Populations that evolve apart; not the number of threads.
     pub islands: usize,
-    /// Candidates that an island considers in a generation.
+    /// Candidates that an island with the whole cost budget considers in a generation; one with less
+    /// considers more, up to a hundred times as many.
     pub candidates: usize,
     /// Individuals that an island keeps at each cost.
     pub bucket_size: usize,

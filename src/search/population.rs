@@ -1,9 +1,11 @@
-//! An island's population: the best few individuals at each cost.
+//! An island's population: the best few individuals at each cost, or of each family at each cost.
 
+use crate::op::Op;
 use crate::program::Draft;
 use rand::RngExt;
 use rand_chacha::ChaCha8Rng;
 use serde::{Deserialize, Serialize};
+use std::ops::Range;
 
 /// A fitted draft, its loss on the racing subset.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -15,36 +17,63 @@ pub(super) struct Individual {
     pub hash: u64,
 }
 
-/// A bucket for each whole number of cycles, sorted by loss, structures distinct.
+/// A bucket for each whole number of cycles and each family, sorted by loss, structures distinct.
 #[derive(Clone, Debug, Serialize, Deserialize)]
 pub(super) struct Population {
     /// Cycles that an individual may cost at most.
     pub max_cost: f64,
+    /// Whether individuals compete within their family only.
+    by_family: bool,
+    /// Family after family, each by rising cost.
     buckets: Vec<Vec<Individual>>,
     bucket_size: usize,
+}
+
+/// Which of exponentials, roots and quotients a draft has. They are dear: at first the like of
+/// `sqrt(1 - x)` errs more than a polynomial of its cost, and where both compete it is gone before
+/// anything has grown on it.
+const FAMILIES: usize = 8;
+
+fn family(draft: &Draft) -> usize {
+    draft.instrs.iter().fold(0, |family, instr| {
+        family
+            | match instr.op() {
+                Op::Exp2 | Op::Log2 | Op::Exp | Op::Log | Op::Pow | Op::Tanh => 1,
+                Op::Sqrt | Op::Rsqrt => 2,
+                Op::Div | Op::Rcp => 4,
+                _ => 0,
+            }
+    })
 }
 
 /// How much worse than a cheaper individual one may be and still be let in.
 const SLACK: f64 = 1.5;
 
 impl Population {
-    pub fn new(max_cost: f64, bucket_size: usize) -> Population {
-        Population { max_cost, buckets: vec![Vec::new(); max_cost as usize + 1], bucket_size }
+    pub fn new(max_cost: f64, by_family: bool, bucket_size: usize) -> Population {
+        let families = if by_family { FAMILIES } else { 1 };
+        let buckets = vec![Vec::new(); families * (max_cost as usize + 1)];
+        Population { max_cost, by_family, buckets, bucket_size }
     }
 
-    fn bucket_of(&self, cost: f64) -> usize {
-        (cost as usize).min(self.buckets.len() - 1)
+    /// The buckets of a draft's family up to its cost; its own is the last.
+    fn up_to(&self, draft: &Draft, cost: f64) -> Range<usize> {
+        let family = if self.by_family { family(draft) } else { 0 };
+        let first = family * (self.max_cost as usize + 1);
+        first..first + cost.min(self.max_cost) as usize + 1
     }
 
     /// The loss that a newcomer at this cost must beat; none does that costs too much.
-    pub fn admission(&self, cost: f64) -> f64 {
+    pub fn admission(&self, draft: &Draft, cost: f64) -> f64 {
         if cost > self.max_cost {
             return 0.0;
         }
-        let bucket = self.bucket_of(cost);
-        let cheaper = self.buckets[..bucket].iter().filter_map(|b| b.first());
+        let Some((own, cheaper)) = self.buckets[self.up_to(draft, cost)].split_last() else {
+            return 0.0;
+        };
+        let cheaper = cheaper.iter().filter_map(|bucket| bucket.first());
         let best = cheaper.map(|individual| individual.loss).fold(f64::INFINITY, f64::min);
-        let worst = match self.buckets[bucket].get(self.bucket_size - 1) {
+        let worst = match own.get(self.bucket_size - 1) {
             Some(last) => last.loss,
             None => f64::INFINITY,
         };
@@ -54,10 +83,11 @@ impl Population {
     /// Takes an individual in if it beats the admission, in place of one of the same structure if
     /// there is one, else of the worst. Says whether it is in.
     pub fn offer(&mut self, newcomer: Individual) -> bool {
-        if newcomer.loss.is_nan() || newcomer.loss >= self.admission(newcomer.cost) {
+        let admission = self.admission(&newcomer.draft, newcomer.cost);
+        if newcomer.loss.is_nan() || newcomer.loss >= admission {
             return false;
         }
-        let at = self.bucket_of(newcomer.cost);
+        let at = self.up_to(&newcomer.draft, newcomer.cost).end - 1;
         let bucket = &mut self.buckets[at];
         if let Some(same) = bucket.iter().position(|known| known.hash == newcomer.hash) {
             if bucket[same].loss <= newcomer.loss {
@@ -83,7 +113,7 @@ impl Population {
         bucket.get(a.min(b))
     }
 
-    /// By rising cost.
+    /// Family after family, by rising cost.
     pub fn individuals(&self) -> impl Iterator<Item = &Individual> {
         self.buckets.iter().flatten()
     }
