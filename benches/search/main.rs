@@ -15,6 +15,7 @@ use clap::Parser;
 use functions::FUNCTIONS;
 use lgp::cost::Profile;
 use lgp::dataset::{Dataset, Incumbent, incumbents_for};
+use lgp::fit::Measure;
 use lgp::grammar::Grammar;
 use lgp::report::table::Published;
 use lgp::search::{Front, FrontMember, Problem, Search, Settings};
@@ -47,6 +48,9 @@ struct Args {
     grammar: String,
     #[arg(long, default_value = "results/search")]
     out: PathBuf,
+    /// The front polished for the maximum error, too
+    #[arg(long)]
+    minimax: bool,
     /// Search nothing: only make the tables and pictures of what is there
     #[arg(long)]
     tables: bool,
@@ -193,6 +197,13 @@ fn measure(args: &Args, case: &Case, profile: &Profile, seed: u64) -> Result<(),
             generations: search.generation(),
             considered: search.counts().considered,
             front: Front::of(&search, &problem).members.iter().map(member).collect(),
+            minimax: match args.minimax {
+                true => {
+                    let front = Front::in_measure(&search, &problem, Measure::Max);
+                    front.members.iter().map(member).collect()
+                }
+                false => Vec::new(),
+            },
             trace: trace
                 .iter()
                 .cloned()

@@ -68,6 +68,9 @@ pub struct Run {
     pub generations: u64,
     pub considered: u64,
     pub front: Vec<Member>,
+    /// The front for the maximum error, where it was asked for.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub minimax: Vec<Member>,
     pub trace: Vec<TracePoint>,
 }
 
@@ -90,6 +93,13 @@ pub struct TracePoint {
 }
 
 impl Run {
+    /// The least maximum error at no more than a cost, on the front made for it; infinite where there
+    /// is none.
+    pub fn max_error_at(&self, cost: f64) -> f64 {
+        let affordable = self.minimax.iter().filter(|member| member.cost <= cost);
+        affordable.map(|member| member.max).fold(f64::INFINITY, f64::min)
+    }
+
     /// The least RMSE at no more than a cost; infinite where there is none.
     pub fn error_at(&self, cost: f64) -> f64 {
         let affordable = self.front.iter().filter(|member| member.cost <= cost);
@@ -141,6 +151,13 @@ impl Runs {
     /// Over all runs, the error at no more than a cost.
     pub fn errors_at(&self, cost: f64) -> Spread {
         Spread::of(self.runs.iter().map(|run| run.error_at(cost)).collect())
+    }
+
+    /// The same of the maximum error, over the runs that have a front for it.
+    pub fn max_errors_at(&self, cost: f64) -> Option<Spread> {
+        let with_one = self.runs.iter().filter(|run| !run.minimax.is_empty());
+        let errors: Vec<f64> = with_one.map(|run| run.max_error_at(cost)).collect();
+        (!errors.is_empty()).then(|| Spread::of(errors))
     }
 }
 

@@ -40,6 +40,9 @@ const GOALS: [(&str, &str, f64, f64); 24] = [
     ("dfg", "600s", 49.0, 0.001),
 ];
 
+/// Medians of the maximum error to be reached: dataset, cost, error.
+const MAX_GOALS: [(&str, f64, f64); 2] = [("bias", 16.0, 0.012), ("dfg", 20.0, 0.03)];
+
 const INTRODUCTION: &str = "\
 # Search benchmark
 
@@ -65,6 +68,7 @@ pub fn write(out: &Path, cases: &[Case]) -> Result<(), Box<dyn Error>> {
         writeln!(page, "![Error against time]({}/time.svg)\n", case.name)?;
         overview(&mut page, &all)?;
         goals(&mut page, &all)?;
+        maximum_errors(&mut page, &all)?;
         against_published(&mut page, &mut published, case, &all)?;
         for runs in &all {
             rows(&mut table, runs)?;
@@ -124,6 +128,29 @@ fn goals(page: &mut String, all: &[Runs]) -> std::fmt::Result {
         }
     }
     if told.is_empty() { Ok(()) } else { writeln!(page, "\nGoals: {}.", told.join("; ")) }
+}
+
+/// Of the fronts that were polished for it.
+fn maximum_errors(page: &mut String, all: &[Runs]) -> std::fmt::Result {
+    for runs in all {
+        let cells: Vec<String> = TRACED
+            .iter()
+            .filter_map(|&cost| {
+                let Spread { median, worst, .. } = runs.max_errors_at(cost)?;
+                Some(format!("{cost} → {} ×{:.2}", error_text(median), worst / median))
+            })
+            .collect();
+        if cells.is_empty() {
+            continue;
+        }
+        writeln!(page, "\nMaximum error, {}: {}.", runs.budget, cells.join(", "))?;
+        for (_, cost, goal) in MAX_GOALS.iter().filter(|goal| goal.0 == runs.data) {
+            let median = runs.max_errors_at(*cost).map_or(f64::INFINITY, |spread| spread.median);
+            let verdict = if median <= *goal { "reached" } else { "missed" };
+            writeln!(page, "Goal: {cost} → {goal}: {verdict} ({}).", error_text(median))?;
+        }
+    }
+    Ok(())
 }
 
 fn against_published(
