@@ -12,6 +12,7 @@ mod record;
 mod summary;
 
 use clap::Parser;
+use cpu_time::ProcessTime;
 use functions::FUNCTIONS;
 use lgp::cost::Profile;
 use lgp::dataset::{Dataset, Incumbent, incumbents_for};
@@ -22,10 +23,24 @@ use lgp::search::{Front, FrontMember, Problem, Search, Settings};
 use record::{Budget, Member, Run, Runs, TRACED, TracePoint};
 use std::error::Error;
 use std::path::{Path, PathBuf};
-use std::time::{Duration, Instant};
+use std::time::Instant;
 
 /// Each traced moment is this many times later than the one before.
 const TRACE_RATIO: f64 = 1.2;
+
+/// Of the time that a search's threads have on a quiet machine, the part in which they are not waiting
+/// for each other.
+const BUSY: f64 = 0.9;
+
+/// Seconds of wall time, or such as a quiet machine would take for the CPU time spent.
+fn seconds(args: &Args, work: impl FnOnce()) -> f64 {
+    let (start, spent) = (Instant::now(), ProcessTime::now());
+    work();
+    match args.cpu {
+        true => spent.elapsed().as_secs_f64() / (args.threads as f64 * BUSY),
+        false => start.elapsed().as_secs_f64(),
+    }
+}
 
 /// Cycles up to which all formulas are tried first, as `lgp search` does.
 const ENUMERATED: f64 = 1.0;
@@ -42,6 +57,10 @@ struct Args {
     budgets: Vec<Budget>,
     #[arg(long, default_value_t = 2)]
     threads: usize,
+    /// Budgets in CPU time, so that other work on the machine changes nothing: what all threads spend,
+    /// over what they would spend in a second of a quiet machine
+    #[arg(long)]
+    cpu: bool,
     #[arg(long, default_value_t = Settings::default().max_cost)]
     max_cost: f64,
     #[arg(long, default_value = "shader")]
@@ -170,21 +189,15 @@ fn published(
 fn measure(args: &Args, case: &Case, profile: &Profile, seed: u64) -> Result<(), Box<dyn Error>> {
     let grammar = Grammar::find(&args.grammar)?;
     let settings = Settings { seed, max_cost: args.max_cost, ..Settings::default() };
-    let mut clock = Duration::ZERO;
-    let start = Instant::now();
     let problem = Problem::new(&case.dataset, &grammar, profile, &settings);
     let mut search = Search::new(settings);
-    search.enumerate(&problem, ENUMERATED);
-    clock += start.elapsed();
+    let mut clock = seconds(args, || search.enumerate(&problem, ENUMERATED));
     let mut trace: Vec<TracePoint> = Vec::new();
     for &budget in &args.budgets {
-        while !budget.is_spent(clock.as_secs_f64(), search.generation()) {
-            let start = Instant::now();
-            search.advance(&problem);
-            clock += start.elapsed();
-            let seconds = clock.as_secs_f64();
-            if trace.last().is_none_or(|last| seconds >= last.seconds * TRACE_RATIO) {
-                trace.push(trace_point(&search, seconds));
+        while !budget.is_spent(clock, search.generation()) {
+            clock += seconds(args, || search.advance(&problem));
+            if trace.last().is_none_or(|last| clock >= last.seconds * TRACE_RATIO) {
+                trace.push(trace_point(&search, clock));
             }
         }
         let run = Run {
@@ -193,7 +206,8 @@ fn measure(args: &Args, case: &Case, profile: &Profile, seed: u64) -> Result<(),
             grammar: args.grammar.clone(),
             max_cost: args.max_cost,
             threads: args.threads,
-            seconds: short(clock.as_secs_f64()),
+            cpu: args.cpu,
+            seconds: short(clock),
             generations: search.generation(),
             considered: search.counts().considered,
             front: Front::of(&search, &problem).members.iter().map(member).collect(),
@@ -204,11 +218,7 @@ fn measure(args: &Args, case: &Case, profile: &Profile, seed: u64) -> Result<(),
                 }
                 false => Vec::new(),
             },
-            trace: trace
-                .iter()
-                .cloned()
-                .chain([trace_point(&search, clock.as_secs_f64())])
-                .collect(),
+            trace: trace.iter().cloned().chain([trace_point(&search, clock)]).collect(),
         };
         let errors: Vec<String> =
             TRACED.iter().map(|&cost| format!("{cost}: {:.5}", run.error_at(cost))).collect();

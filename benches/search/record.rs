@@ -63,6 +63,9 @@ pub struct Run {
     pub grammar: String,
     pub max_cost: f64,
     pub threads: usize,
+    /// Whether seconds are of CPU time.
+    #[serde(default)]
+    pub cpu: bool,
     /// Of the search; polishing the front comes after.
     pub seconds: f64,
     pub generations: u64,

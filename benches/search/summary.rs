@@ -49,7 +49,9 @@ const INTRODUCTION: &str = "\
 Made by `cargo run --release --example search`; [`benches/search`](../../benches/search/main.rs) says what is
 measured, `-- --help` how to choose. Errors are RMSE on the search grid, over all outputs: the
 median over seeds of the best formula at that cost or below, and behind × the worst seed over the
-median. Budgets are seconds of wall time on two threads. `table.csv` has every whole cost,
+median. Budgets are seconds on two threads, of wall time or, where `DATA/BUDGET.json` says so, of the CPU
+time that a quiet machine spends in such a second (1.8 s: threads wait for each other), so that other
+work on the machine changes nothing. `table.csv` has every whole cost,
 `published.csv` each published formula, `DATA/BUDGET.json` the fronts and traces.
 
 A published formula is *halved* where the median seed has half its error at its cost or below.

@@ -44,9 +44,9 @@ const WAYS: [Way; 8] = [
     Way { share: 1.0, by_family: false },
     Way { share: 0.3, by_family: true },
     Way { share: 0.6, by_family: false },
-    Way { share: 0.2, by_family: false },
+    Way { share: 0.2, by_family: true },
     Way { share: 1.0, by_family: false },
-    Way { share: 0.4, by_family: false },
+    Way { share: 0.4, by_family: true },
     Way { share: 1.0, by_family: false },
     Way { share: 0.8, by_family: true },
 ];
@@ -55,7 +55,7 @@ const WAYS: [Way; 8] = [
 const LEAST_SHARE: f64 = 0.1;
 
 /// Where families are kept apart, a bucket has this share of the size that it would have.
-const FAMILY_BUCKET: f64 = 0.5;
+const FAMILY_BUCKET: f64 = 0.34;
 
 #[derive(Clone, Debug, Serialize, Deserialize)]
 pub(super) struct Island {
