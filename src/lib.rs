@@ -19,6 +19,7 @@
 //! | [`eval`] | the data-parallel interpreter, losses, normal equations, scores; the same programs in f64, f16, intervals |
 //! | [`fit`] | error measures; derivatives by constants, Levenberg–Marquardt, the least maximum; constants with few digits; models of one's own |
 //! | [`stability`] | verdicts: what is proved of a formula over its whole domain, or refuted |
+//! | [`scene`] | what a use needs of a dataset: ranges, fixed inputs, histograms, combined outputs |
 //! | [`archive`], [`search`] | the Pareto archive; islands, variation, fronts; runs on disk, their union, what recurs |
 //! | [`emit`] | formulas as HLSL, WGSL, GLSL, MSL, and back; as C, Rust, Python, LaTeX |
 //! | [`quadrature`], [`microfacet`], [`targets`] | integration, BRDF models, ground truths |
@@ -67,6 +68,8 @@ pub mod cost;
 pub mod eval;
 pub mod fit;
 pub mod stability;
+
+pub mod scene;
 
 pub mod archive;
 pub mod search;

@@ -244,7 +244,7 @@ impl Function {
         if weights.iter().all(|&weight| weight == 1.0) {
             weights.clear();
         }
-        Split { columns, weights, grid }
+        Split { columns, weights, grid, ..Split::default() }
     }
 }
 

@@ -196,6 +196,7 @@ mod tests {
             grammar: String::new(),
             max_cost: 40.0,
             threads: 2,
+            cpu: false,
             seconds: 6.0,
             generations: 1,
             considered: 1,
@@ -206,6 +207,7 @@ mod tests {
                 validation_rmse: 1.0,
                 formula: String::new(),
             }],
+            minimax: Vec::new(),
             trace: vec![TracePoint { seconds: 1.0, errors: [None; TRACED.len()] }],
         };
         let add = |hash, run| Runs::add(folder.path(), "d", hash, Budget::Seconds(6), run).unwrap();

@@ -4,7 +4,7 @@ use super::Failure;
 use crate::dataset::Dataset;
 
 /// The options that choose columns.
-#[derive(Clone, Debug, clap::Args)]
+#[derive(Clone, Debug, Default, clap::Args)]
 pub struct Columns {
     /// Only these inputs; an output may be one, too [default: all inputs]
     #[arg(long, value_name = "A,B", value_delimiter = ',')]

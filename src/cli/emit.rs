@@ -1,7 +1,7 @@
 use super::run_folder::{self, Which};
-use super::{Common, Exit, Failure};
+use super::{Common, Exit, Failure, tiers};
 use crate::emit::Language;
-use crate::search::{Front, FrontMember};
+use crate::search::{Front, FrontMember, Run};
 use serde::Serialize;
 use std::path::PathBuf;
 
@@ -20,7 +20,7 @@ pub struct Args {
     #[arg(long)]
     half: bool,
     /// Which one: its number in the table, or the knee [default: knee]
-    #[arg(long, value_name = "knee|N", conflicts_with_all = ["max_cost", "max_error"])]
+    #[arg(long, value_name = "knee|N", conflicts_with_all = ["max_cost", "max_error", "tier"])]
     pick: Option<String>,
     /// The most accurate that costs at most C cycles
     #[arg(long, value_name = "C")]
@@ -28,6 +28,9 @@ pub struct Args {
     /// The cheapest whose error (RMSE, or what the front was searched by) is at most E
     #[arg(long, value_name = "E")]
     max_error: Option<f64>,
+    /// What this tier of the run's scene can afford
+    #[arg(long, value_name = "TIER", conflicts_with_all = ["max_cost", "max_error"])]
+    tier: Option<String>,
 }
 
 #[derive(Serialize)]
@@ -41,7 +44,7 @@ struct Emitted<'a> {
 
 pub fn run(args: &Args, common: &Common) -> Result<(), Failure> {
     let (run, front) = run_folder::load(&args.run, args.which)?;
-    let member = pick(args, &front)?;
+    let member = pick(args, &run, &front)?;
     let code = match args.half {
         false => run_folder::snippet(&run, member, args.lang),
         true => run_folder::half_snippet(&run, member, args.lang).ok_or_else(|| {
@@ -61,20 +64,17 @@ pub fn run(args: &Args, common: &Common) -> Result<(), Failure> {
     common.result(&emitted, &code)
 }
 
-fn pick<'a>(args: &Args, front: &'a Front) -> Result<&'a FrontMember, Failure> {
+fn pick<'a>(args: &Args, run: &Run, front: &'a Front) -> Result<&'a FrontMember, Failure> {
     let members = &front.members;
     let unmet = |message: String| Failure::new(Exit::Unmet, anyhow::Error::msg(message));
     if args.max_cost.is_some() || args.max_error.is_some() {
-        let (cost, error) =
-            (args.max_cost.unwrap_or(f64::INFINITY), args.max_error.unwrap_or(f64::INFINITY));
-        let mut suitable = members.iter().filter(|member| {
-            member.cost <= cost && member.search_error().of(front.measure) <= error
-        });
-        // The front falls: the cheapest is the first, the most accurate the last.
-        let found = if args.max_error.is_some() { suitable.next() } else { suitable.next_back() };
-        return found.ok_or_else(|| {
+        return front.within(args.max_cost, args.max_error).ok_or_else(|| {
+            let (cost, error) = (args.max_cost.unwrap_or(f64::INFINITY), args.max_error.unwrap_or(f64::INFINITY));
             unmet(format!("no formula of the front costs at most {cost} cycles with an error of at most {error}; search longer, or ask for less"))
         });
+    }
+    if let Some(tier) = &args.tier {
+        return tiers::pick(run, front, tier);
     }
     match args.pick.as_deref() {
         None | Some("knee") => front.knee().ok_or_else(|| unmet("the front is empty".into())),

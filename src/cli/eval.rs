@@ -1,7 +1,7 @@
+use super::subject::Subject;
 use super::{Common, Exit, Failure, columns::Columns};
 use crate::cost::Profile;
-use crate::dataset::Dataset;
-use crate::program::{Names, ParseError, Parsed, Scope, parse_template};
+use crate::program::{Names, ParseError, Parsed, Program, Scope, parse_template};
 use crate::report::table::front_table;
 use crate::search::{Front, FrontMember, MemberRecord};
 use std::path::PathBuf;
@@ -17,27 +17,50 @@ pub struct Args {
     dataset: PathBuf,
     #[command(flatten)]
     columns: Columns,
+    /// On what a scene needs of the dataset; the formula may be over the columns of either
+    #[arg(long, value_name = "S")]
+    scene: Option<String>,
     /// What it costs: a GPU profile, built in or a .ron file, or a mix such as gcn:2,turing:1
     #[arg(long, value_name = "P", default_value = "gcn")]
     gpu: String,
 }
 
 pub fn run(args: &Args, common: &Common) -> Result<(), Failure> {
-    let dataset = args.columns.of(&Dataset::load(&args.dataset)?)?;
+    let subject = Subject::load(&args.dataset, args.scene.as_deref(), &args.columns)?;
     let profile = Profile::find(&args.gpu)?;
-    let Parsed { program, names, free } = assigned_outputs(&args.formula, &dataset.names())?;
-    if let Some(constant) = free.first() {
-        let name = &constant.name;
-        let message =
-            format!("`${name}` is a free constant; give it a value, or fit it with `lgp fit`");
-        return Err(Failure::new(Exit::Input, anyhow::Error::msg(message)));
-    }
-    let dataset = dataset.select(Some(&names.inputs), Some(&names.outputs))?;
+    let (program, names) = read(args, &subject)?;
+    let dataset = subject.dataset.select(Some(&names.inputs), Some(&names.outputs))?;
     let member = FrontMember::new(program, &dataset, &profile, &names);
     let record = MemberRecord::new(&member, &names);
     let table =
         front_table(&Front { members: vec![member], ..Front::default() }, &[], &names.outputs);
     common.result(&record, &table)
+}
+
+/// The formula over the subject's columns.
+fn read(args: &Args, subject: &Subject) -> Result<(Program, Names), Failure> {
+    let names = subject.dataset.names();
+    let refusal = match assigned_outputs(&args.formula, &names) {
+        Ok(Parsed { program, names, free }) if free.is_empty() => return Ok((program, names)),
+        Ok(Parsed { free, .. }) => {
+            let name = &free[0].name;
+            let message =
+                format!("`${name}` is a free constant; give it a value, or fit it with `lgp fit`");
+            return Err(Failure::new(Exit::Input, anyhow::Error::msg(message)));
+        }
+        Err(error) => error,
+    };
+    let Some(scene) = &subject.scene else { return Err(refusal.into()) };
+    let view = scene.over(&subject.whole)?;
+    let whole = assigned_outputs(&args.formula, &subject.whole.names());
+    let Some(Parsed { program, names: defined, .. }) = whole.ok().filter(|p| p.free.is_empty())
+    else {
+        return Err(refusal.into());
+    };
+    match view.program(&program, &defined.outputs, &names.outputs) {
+        Some(program) if view.inputs() == names.inputs => Ok((program, names)),
+        _ => Err(refusal.into()),
+    }
 }
 
 /// What a text says of those outputs that it assigns.

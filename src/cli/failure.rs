@@ -1,6 +1,6 @@
 use crate::grammar::FileError;
 use crate::search::{Incompatible, RecordError};
-use crate::{dataset, program, targets};
+use crate::{dataset, program, scene, targets};
 use std::io::Write;
 use std::path::Path;
 use std::process::ExitCode;
@@ -72,6 +72,12 @@ impl From<dataset::Error> for Failure {
             }
             error => Failure::new(Exit::Input, error),
         }
+    }
+}
+
+impl From<scene::Error> for Failure {
+    fn from(error: scene::Error) -> Failure {
+        Failure::new(Exit::Input, error)
     }
 }
 

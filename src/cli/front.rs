@@ -1,5 +1,6 @@
 use super::run_folder::{self, Which};
-use super::{Common, Failure, search};
+use super::subject::Subject;
+use super::{Common, Failure, tiers};
 use crate::cost::Profile;
 use crate::dataset::Dataset;
 use crate::report::table::{Published, front_table};
@@ -20,7 +21,8 @@ pub fn run(args: &Args, common: &Common) -> Result<(), Failure> {
     count_registers(&run, &mut front);
     let names = run.names();
     let records: Vec<_> = front.members.iter().map(|m| MemberRecord::new(m, &names)).collect();
-    let table = front_table(&front, &incumbents(&run).unwrap_or_default(), &names.outputs);
+    let table = front_table(&front, &incumbents(&run).unwrap_or_default(), &names.outputs)
+        + &tiers::table(&run, &front);
     common.result(&records, &table)
 }
 
@@ -36,7 +38,7 @@ fn count_registers(run: &Run, front: &mut Front) {
 pub(super) fn incumbents(run: &Run) -> Option<Vec<Published>> {
     let whole = Dataset::load(&run.dataset).ok().filter(|data| data.hash() == run.dataset_hash)?;
     let names = run.names();
-    let dataset = whole.select(Some(&names.inputs), Some(&names.outputs)).ok()?;
-    let profile = Profile::find(&run.gpu).ok()?;
-    search::published(&run.dataset, &dataset, &profile).ok()
+    let choose = |dataset: &Dataset| Ok(dataset.select(Some(&names.inputs), Some(&names.outputs))?);
+    let subject = Subject::new(whole, run.scene.clone(), choose).ok()?;
+    subject.published(&run.dataset, &Profile::find(&run.gpu).ok()?).ok()
 }

@@ -35,6 +35,10 @@ pub(super) fn incumbents() -> Vec<Entry> {
     })
 }
 
+pub(super) fn scenes() -> Vec<Entry> {
+    entries("datasets/scenes", "ron", first_comment)
+}
+
 pub(super) fn grammars() -> Vec<Entry> {
     let described = |name| Grammar::find(name).map(|grammar| grammar.description);
     let built_in = Grammar::built_in().map(|name| built_in(name, described(name).ok()));

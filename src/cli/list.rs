@@ -6,7 +6,7 @@ use std::fmt::Write;
 
 /// Show what there is to work with, built in and in this folder
 ///
-/// Targets are built in. Datasets and incumbents are looked for in ./datasets, grammars and GPU
+/// Targets are built in. Datasets, incumbents and scenes are looked for in ./datasets, grammars and GPU
 /// profiles in ./grammar.
 #[derive(clap::Args)]
 pub struct Args {}
@@ -18,6 +18,7 @@ struct Inventory {
     grammars: Vec<Entry>,
     gpu_profiles: Vec<Entry>,
     incumbents: Vec<Entry>,
+    scenes: Vec<Entry>,
 }
 
 #[derive(Serialize)]
@@ -43,6 +44,7 @@ pub fn run(_: &Args, common: &Common) -> Result<(), Failure> {
         grammars: inventory::grammars(),
         gpu_profiles: inventory::gpu_profiles(),
         incumbents: inventory::incumbents(),
+        scenes: inventory::scenes(),
     };
     common.result(&inventory, &page(&inventory))
 }
@@ -83,6 +85,7 @@ fn page(inventory: &Inventory) -> String {
         ("Grammars", "grammar", &inventory.grammars),
         ("GPU profiles", "grammar/gpu", &inventory.gpu_profiles),
         ("Incumbents", "datasets/incumbents", &inventory.incumbents),
+        ("Scenes", "datasets/scenes", &inventory.scenes),
     ];
     for (title, folder, entries) in sections {
         let _ = writeln!(page, "\n{title}");

@@ -18,7 +18,11 @@ mod merge;
 mod output;
 mod pruning;
 mod run_folder;
+mod scene;
 mod search;
+mod specialize;
+mod subject;
+mod tiers;
 mod verify;
 
 pub use failure::{Exit, Failure};
@@ -75,6 +79,8 @@ enum Command {
     Analyze(analyze::Args),
     Merge(merge::Args),
     Fit(fit::Args),
+    Scene(scene::Args),
+    Specialize(specialize::Args),
     Generate(generate::Args),
     Import(import::Args),
     Info(info::Args),
@@ -93,6 +99,8 @@ impl Command {
             Command::Analyze(args) => analyze::run(args, common),
             Command::Merge(args) => merge::run(args, common),
             Command::Fit(args) => fit::run(args, common),
+            Command::Scene(args) => scene::run(args, common),
+            Command::Specialize(args) => specialize::run(args, common),
             Command::Generate(args) => generate::run(args, common),
             Command::Import(args) => import::run(args, common),
             Command::Info(args) => info::run(args, common),

@@ -187,6 +187,9 @@ fn header(run: &Run, member: &FrontMember) -> Vec<String> {
         format!("error: {} on the search split", described(search)),
         format!("       {} on the validation split", described(validation)),
     ];
+    if let Some(scene) = &run.scene {
+        header.insert(2, format!("scene: {}: {}", scene.name, scene.summary()));
+    }
     if names.outputs.len() > 1 {
         for (output, error) in names.outputs.iter().zip(&member.score.search) {
             header.push(format!("       {output}: {}", described(*error)));
@@ -217,7 +220,9 @@ fn cost_line(member: &FrontMember, run: &Run) -> String {
 }
 
 fn described(error: OutputError) -> String {
-    format!("RMSE {}, max {}", error_text(error.rmse), error_text(error.max))
+    let visible = error.visible.map(|visible| format!(", visible RMSE {}", error_text(visible)));
+    let (rmse, max) = (error_text(error.rmse), error_text(error.max));
+    format!("RMSE {rmse}, max {max}{}", visible.unwrap_or_default())
 }
 
 fn domains(inputs: &[Column]) -> String {

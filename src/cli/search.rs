@@ -1,14 +1,14 @@
 use super::run_folder::{self, PartialRun};
-use super::{Common, Exit, Failure, columns::Columns, duration};
+use super::subject::Subject;
+use super::{Common, Exit, Failure, columns::Columns, duration, tiers};
 use crate::cost::Profile;
-use crate::dataset::{Dataset, incumbents_for};
+use crate::dataset::Dataset;
 use crate::fit::Measure;
 use crate::grammar::Grammar;
 use crate::program::{Draft, parse};
 use crate::report::table::{Published, front_table};
 use crate::search::{
-    Front, FrontMember, MemberRecord, Problem, Requirement, Run, Search, Settings, TracePoint,
-    Transform,
+    Front, MemberRecord, Problem, Requirement, Run, Search, Settings, TracePoint, Transform,
 };
 use crate::suggest::did_you_mean;
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
@@ -28,6 +28,9 @@ pub struct Args {
     dataset: PathBuf,
     #[command(flatten)]
     columns: Columns,
+    /// What is needed of the dataset: a scene beside it, or a .ron file
+    #[arg(long, value_name = "S")]
+    scene: Option<String>,
     /// What may be written: a built-in grammar, or a .ron file
     #[arg(long, value_name = "G", default_value = "shader")]
     grammar: String,
@@ -41,10 +44,9 @@ pub struct Args {
     /// Stop after N generations: with the same seed the same front, whatever the threads
     #[arg(long, value_name = "N")]
     generations: Option<u64>,
-    /// The most cycles that a formula may cost
-    #[arg(long, value_name = "C", default_value_t = 40.0, value_parser = budget)]
-    #[arg(allow_hyphen_values = true)]
-    max_cost: f64,
+    /// The most cycles that a formula may cost [default: 40, or what the scene's tiers may spend]
+    #[arg(long, value_name = "C", value_parser = budget, allow_hyphen_values = true)]
+    max_cost: Option<f64>,
     /// What is made small: rmse, max, weighted (by the dataset's weights) or relative [default: rmse,
     /// or weighted where the dataset has weights]
     #[arg(long, value_name = "MEASURE")]
@@ -75,6 +77,9 @@ pub struct Args {
     resume: bool,
 }
 
+/// Without tiers that say what they may spend.
+const MAX_COST: f64 = 40.0;
+
 fn budget(text: &str) -> Result<f64, String> {
     match text.parse::<f64>() {
         Ok(cost) if (0.0..=1000.0).contains(&cost) => Ok(cost),
@@ -83,29 +88,30 @@ fn budget(text: &str) -> Result<f64, String> {
 }
 
 pub fn run(args: &Args, common: &Common) -> Result<(), Failure> {
-    let whole = Dataset::load(&args.dataset)?;
-    let dataset = args.columns.of(&whole)?;
+    let subject = Subject::load(&args.dataset, args.scene.as_deref(), &args.columns)?;
+    let dataset = &subject.dataset;
     let grammar = Grammar::find(&args.grammar)?;
     let profile = Profile::find(&args.gpu)?;
-    let guesses = guesses(&args.guess, &dataset)?;
-    let incumbents = published(&args.dataset, &dataset, &profile)?;
+    let guesses = guesses(&args.guess, dataset)?;
+    let incumbents = subject.published(&args.dataset, &profile)?;
     let folder = args.out.clone().unwrap_or_else(|| Path::new("runs").join(&dataset.name));
+    let tiers_spend = subject.scene.as_ref().and_then(|scene| scene.max_cost());
     let settings = Settings {
         seed: common.seed,
         islands: args.islands.into(),
-        max_cost: args.max_cost,
+        max_cost: args.max_cost.or(tiers_spend).unwrap_or(MAX_COST),
         measure: args.loss.unwrap_or(Measure::usual(&dataset.search)),
-        requirements: requirements(args, &dataset)?,
-        transforms: transforms(&args.transform, &dataset)?,
+        requirements: requirements(args, dataset)?,
+        transforms: transforms(&args.transform, dataset)?,
         ..Settings::default()
     };
     let (mut search, before) = if args.resume {
-        resumed(&folder, &dataset, &settings, args)?
+        resumed(&folder, &subject, &settings, args)?
     } else {
         (Search::new(settings), 0.0)
     };
     run_folder::create(&folder)?;
-    let problem = Problem::new(&dataset, &grammar, &profile, search.settings());
+    let problem = Problem::new(dataset, &grammar, &profile, search.settings());
     if !args.resume {
         search.enumerate(&problem, args.exhaustive);
         search.settle(&guesses, &problem);
@@ -119,7 +125,8 @@ pub fn run(args: &Args, common: &Common) -> Result<(), Failure> {
         version: env!("CARGO_PKG_VERSION").to_owned(),
         command: std::env::args().collect(),
         dataset: args.dataset.clone(),
-        dataset_hash: whole.hash(),
+        dataset_hash: subject.whole.hash(),
+        scene: subject.scene.clone(),
         name: dataset.name.clone(),
         inputs: dataset.inputs.clone(),
         outputs: dataset.outputs.clone(),
@@ -134,7 +141,7 @@ pub fn run(args: &Args, common: &Common) -> Result<(), Failure> {
         enumeration: search.enumeration(),
         sources: Vec::new(),
     };
-    partial.finish(&run, &front, &minimax, &incumbents, &search, &dataset)?;
+    partial.finish(&run, &front, &minimax, &incumbents, &search, dataset)?;
     show(common, &run, &front, &incumbents, &folder)?;
     if interrupted.load(Ordering::Relaxed) {
         let done = format!(
@@ -143,7 +150,7 @@ pub fn run(args: &Args, common: &Common) -> Result<(), Failure> {
         );
         return Err(Failure::new(Exit::Interrupted, anyhow::Error::msg(done)));
     }
-    Ok(())
+    tiers::check(&run, &front)
 }
 
 fn guesses(texts: &[String], dataset: &Dataset) -> Result<Vec<Draft>, Failure> {
@@ -183,27 +190,10 @@ fn transforms(texts: &[String], dataset: &Dataset) -> Result<Vec<Option<Transfor
     Ok(transforms)
 }
 
-/// The incumbents that define every output, scored.
-pub(super) fn published(
-    path: &Path,
-    dataset: &Dataset,
-    profile: &Profile,
-) -> Result<Vec<Published>, Failure> {
-    let comparable = incumbents_for(path, dataset)?;
-    let names = dataset.names();
-    let whole = comparable.into_iter().filter(|known| known.outputs == names.outputs);
-    Ok(whole
-        .map(|known| Published {
-            name: known.incumbent.name,
-            member: FrontMember::new(known.program, dataset, profile, &names),
-        })
-        .collect())
-}
-
 /// The search of a run's folder, if it was of the same data and settings, and its seconds so far.
 fn resumed(
     folder: &Path,
-    dataset: &Dataset,
+    subject: &Subject,
     settings: &Settings,
     args: &Args,
 ) -> Result<(Search, f64), Failure> {
@@ -215,12 +205,12 @@ fn resumed(
         );
         return Err(Failure::new(Exit::Input, anyhow::Error::msg(message)));
     }
-    let search = Search::load(folder, dataset)?;
+    let search = Search::load(folder, &subject.dataset)?;
     let same = (&run.grammar, &run.gpu, search.settings()) == (&args.grammar, &args.gpu, settings);
-    if !same {
+    if !same || run.scene != subject.scene {
         let path = folder.join("run.ron");
         let message = format!(
-            "{}: the run there has other settings; give the same --seed, --grammar, --gpu, --loss, --require, --transform, --max-cost and --islands, or another --out",
+            "{}: the run there has other settings; give the same --scene, --seed, --grammar, --gpu, --loss, --require, --transform, --max-cost and --islands, or another --out",
             path.display()
         );
         return Err(Failure::new(Exit::Input, anyhow::Error::msg(message)));
@@ -339,7 +329,7 @@ fn show(
 ) -> Result<(), Failure> {
     let names = run.names();
     let records: Vec<_> = front.members.iter().map(|m| MemberRecord::new(m, &names)).collect();
-    let mut text = front_table(front, incumbents, &names.outputs);
+    let mut text = front_table(front, incumbents, &names.outputs) + &tiers::table(run, front);
     if let Some(knee) = front.knee() {
         let snippet = run_folder::snippet(run, knee, crate::emit::Language::Hlsl);
         text += &format!(

@@ -1,3 +1,5 @@
+use super::columns::Columns;
+use super::subject::Subject;
 use super::{Common, Exit, Failure};
 use crate::dataset::Dataset;
 use crate::emit::{Language, read_back};
@@ -21,6 +23,9 @@ pub struct Args {
     snippet: PathBuf,
     /// A dataset, as `lgp generate` and `lgp import` write them
     dataset: PathBuf,
+    /// On what a scene needs of the dataset: a scene beside it, or a .ron file
+    #[arg(long, value_name = "S")]
+    scene: Option<String>,
     /// The largest RMSE over the outputs, on the search split, as `lgp front` shows it
     #[arg(long, value_name = "E", value_parser = error_bound)]
     max_error: f64,
@@ -55,7 +60,8 @@ pub fn run(args: &Args, common: &Common) -> Result<(), Failure> {
         .map_err(|error| unusable(&args.snippet, &format!("cannot be read: {error}")))?;
     let (program, names) =
         read_back(language, &text).map_err(|error| unusable(&args.snippet, &error.to_string()))?;
-    let whole = Dataset::load(&args.dataset)?;
+    let Subject { dataset: whole, .. } =
+        Subject::load(&args.dataset, args.scene.as_deref(), &Columns::default())?;
     let names = columns(names, args.outputs.as_deref(), &whole, &args.snippet)?;
     let dataset = whole.select(Some(&names.inputs), Some(&names.outputs))?;
     let score = Score::of(&program, &dataset, &mut Evaluator::default());

@@ -17,11 +17,33 @@ pub enum InputColumns {
     Names(Vec<String>),
 }
 
-struct Table {
-    names: Vec<String>,
-    columns: Vec<Vec<f32>>,
+/// A table of numbers as its file has it, column-major.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Table {
+    pub names: Vec<String>,
+    pub columns: Vec<Vec<f32>>,
     /// Where each row is in the file.
-    lines: Vec<usize>,
+    pub lines: Vec<usize>,
+}
+
+impl Table {
+    /// Reads a table as [`import_csv`] does: at least one row.
+    ///
+    /// # Errors
+    /// Those of [`import_csv`] that are of the file and its cells.
+    pub fn read(path: &Path) -> Result<Table, Error> {
+        parse(path, &read_text(path)?)
+    }
+
+    /// The place of a column; `path` is the file's, for the error.
+    ///
+    /// # Errors
+    /// No column of this name, with a suggestion.
+    pub fn index_of(&self, path: &Path, name: &str) -> Result<usize, Error> {
+        let names = self.names.iter().map(String::as_str);
+        let index = self.names.iter().position(|column| column == name);
+        index.ok_or_else(|| unknown_column(path.into(), name, names))
+    }
 }
 
 /// Imports a table: comma-separated numbers in UTF-8 under one line of column
@@ -43,8 +65,7 @@ struct Table {
 /// is no finite number in the range of f32; an input that is not there;
 /// nothing left to be an output.
 pub fn import_csv(path: &Path, inputs: &InputColumns) -> Result<Dataset, Error> {
-    let text = read_text(path)?;
-    let mut table = parse(path, &text)?;
+    let mut table = Table::read(path)?;
     let weights = take_weights(path, &mut table, inputs)?;
     let order = column_order(path, &table.names, inputs)?;
     let Table { names, mut columns, .. } = table;
@@ -164,7 +185,10 @@ fn take_weights(path: &Path, table: &mut Table, inputs: &InputColumns) -> Result
     let weights = table.columns.remove(index);
     match weights.iter().zip(&table.lines).find(|(weight, _)| **weight < 0.0) {
         None => Ok(weights),
-        Some((&value, &line)) => Err(Error::NegativeWeight { path: path.into(), line, value }),
+        Some((&value, &line)) => {
+            let (path, column) = (path.into(), WEIGHT.into());
+            Err(Error::NegativeWeight { path, line, column, value })
+        }
     }
 }
 
@@ -257,6 +281,6 @@ fn gather(columns: &[Vec<f32>], weights: &[f32], rows: &[usize]) -> Split {
     Split {
         columns: columns.iter().map(|column| pick(column)).collect(),
         weights: if weights.is_empty() { Vec::new() } else { pick(weights) },
-        grid: Vec::new(),
+        ..Split::default()
     }
 }

@@ -76,8 +76,8 @@ pub enum Error {
     CellNotFinite { path: PathBuf, line: usize, column: String, text: String },
     #[error("{path}, line {line}, column `{column}`: `{text}` is too large for 32-bit floats (largest: 3.4e38); use a smaller unit", path = path.display())]
     CellOverflow { path: PathBuf, line: usize, column: String, text: String },
-    #[error("{path}, line {line}, column `weight`: {value} is negative; weights must not be (name the column among the inputs if it is none)", path = path.display())]
-    NegativeWeight { path: PathBuf, line: usize, value: f32 },
+    #[error("{path}, line {line}, column `{column}`: {value} is negative; weights must not be (name the column among the inputs if it is none)", path = path.display())]
+    NegativeWeight { path: PathBuf, line: usize, column: String, value: f32 },
     #[error("{path}: {asked} input columns were asked for, but there are only {columns} columns and at least one must be left as an output; ask for fewer", path = path.display())]
     TooManyInputs { path: PathBuf, asked: usize, columns: usize },
 

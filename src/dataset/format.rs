@@ -1,6 +1,6 @@
 //! The `.bin` file: magic `LGPDATA1`, the header's length (u32, little-endian),
-//! the header in RON, the columns as little-endian f32 (search columns and
-//! weights, validation columns and weights), and the 32-byte blake3 checksum
+//! the header in RON, the columns as little-endian f32 (search columns,
+//! weights and free errors, then the validation split's), and the 32-byte blake3 checksum
 //! of everything before it.
 
 use super::{Column, Dataset, Error, Split, replace_file};
@@ -27,6 +27,9 @@ struct Header {
 struct SplitHeader {
     rows: u64,
     weighted: bool,
+    /// Whether each output has a column of errors that nobody sees.
+    #[serde(default, skip_serializing_if = "std::ops::Not::not")]
+    free: bool,
     grid: Vec<usize>,
 }
 
@@ -91,6 +94,7 @@ impl Dataset {
         let split = |split: &Split| SplitHeader {
             rows: split.rows() as u64,
             weighted: !split.weights.is_empty(),
+            free: !split.free.is_empty(),
             grid: split.grid.clone(),
         };
         let header = Header {
@@ -111,7 +115,7 @@ impl Dataset {
         bytes.extend_from_slice(&(header.len() as u32).to_le_bytes());
         bytes.extend_from_slice(header.as_bytes());
         for split in [&self.search, &self.validation] {
-            for column in split.columns.iter().chain([&split.weights]) {
+            for column in split.columns.iter().chain([&split.weights]).chain(&split.free) {
                 bytes.extend(column.iter().flat_map(|value| value.to_le_bytes()));
             }
         }
@@ -172,8 +176,10 @@ fn check_length(
     intact: bool,
 ) -> Result<(), Error> {
     let columns = (header.inputs.len() + header.outputs.len()) as u128;
-    let values =
-        |split: &SplitHeader| u128::from(split.rows) * (columns + u128::from(split.weighted));
+    let free = |split: &SplitHeader| if split.free { header.outputs.len() } else { 0 };
+    let values = |split: &SplitHeader| {
+        u128::from(split.rows) * (columns + u128::from(split.weighted) + free(split) as u128)
+    };
     let values = values(&header.search) + values(&header.validation);
     let expected = (body + CHECKSUM) as u128 + 4 * values;
     if expected == u128::from(found) {
@@ -195,6 +201,7 @@ fn check_length(
 /// Cuts the body, whose length has been checked, into columns.
 fn assemble(header: Header, body: &[u8]) -> Dataset {
     let columns = header.inputs.len() + header.outputs.len();
+    let outputs = header.outputs.len();
     let mut words = body.as_chunks::<4>().0.iter().map(|&word| f32::from_le_bytes(word));
     let mut split = |split: SplitHeader| {
         let rows = split.rows as usize;
@@ -202,6 +209,7 @@ fn assemble(header: Header, body: &[u8]) -> Dataset {
         Split {
             columns: (0..columns).map(|_| column()).collect(),
             weights: if split.weighted { column() } else { Vec::new() },
+            free: (0..if split.free { outputs } else { 0 }).map(|_| column()).collect(),
             grid: split.grid,
         }
     };

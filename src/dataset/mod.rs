@@ -13,7 +13,7 @@ mod incumbent;
 mod prune;
 mod select;
 
-pub use csv::{InputColumns, import_csv};
+pub use csv::{InputColumns, Table, import_csv};
 pub use error::Error;
 pub use file::replace_file;
 pub use incumbent::{Comparable, Incumbent, incumbents_file, incumbents_for, load_incumbents};
@@ -42,6 +42,9 @@ pub struct Split {
     pub columns: Vec<Vec<f32>>,
     /// One weight a row; empty means that all are one.
     pub weights: Vec<f32>,
+    /// By output, the error of each row that nobody sees ([`crate::scene::Quantisation`]); empty where
+    /// all errors count.
+    pub free: Vec<Vec<f32>>,
     /// Points along each input axis, the first input varying slowest, if the
     /// rows are a full regular grid; empty otherwise.
     pub grid: Vec<usize>,
@@ -136,6 +139,24 @@ impl Dataset {
         Ok(())
     }
 
+    fn validate_free(&self, path: &Path, split: &'static str, rows: &Split) -> Result<(), Error> {
+        if rows.free.is_empty() {
+            return Ok(());
+        }
+        let (found, expected) = (rows.free.len(), self.outputs.len());
+        if found != expected {
+            return Err(Error::ColumnCount { path: path.into(), split, found, expected });
+        }
+        for column in &rows.free {
+            validate_values(path, split, FREE, column, rows.rows())?;
+            if let Some(row) = column.iter().position(|free| *free < 0.0) {
+                let value = column[row];
+                return Err(Error::BadWeight { path: path.into(), split, row: row + 1, value });
+            }
+        }
+        Ok(())
+    }
+
     fn validate_split(&self, path: &Path, split: &'static str, rows: &Split) -> Result<(), Error> {
         let expected = self.inputs.len() + self.outputs.len();
         let found = rows.columns.len();
@@ -149,6 +170,7 @@ impl Dataset {
             validate_values(path, split, &column.name, values, rows.rows())?;
         }
         validate_weights(path, split, rows)?;
+        self.validate_free(path, split, rows)?;
         let points = rows.grid.iter().try_fold(1usize, |product, &n| product.checked_mul(n));
         let fits = rows.grid.len() == self.inputs.len() && points == Some(rows.rows());
         if !rows.grid.is_empty() && !fits {
@@ -162,6 +184,9 @@ impl Dataset {
         Ok(())
     }
 }
+
+/// What a column of free errors is called in messages.
+const FREE: &str = "free errors";
 
 fn validate_values(
     path: &Path,

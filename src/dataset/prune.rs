@@ -32,6 +32,7 @@ impl Dataset {
         self.search = Split {
             columns: self.search.columns.iter().map(of).collect(),
             weights: kept.iter().map(|&(_, weight)| weight as f32).collect(),
+            free: self.search.free.iter().map(of).collect(),
             grid: Vec::new(),
         };
     }
@@ -112,7 +113,7 @@ mod tests {
                 columns.iter_mut().zip(row).for_each(|(column, value)| column.push(value));
             }
         }
-        let split = Split { columns, weights: Vec::new(), grid: vec![32, 32] };
+        let split = Split { columns, grid: vec![32, 32], ..Split::default() };
         Dataset {
             name: "ramp".into(),
             recipe: String::new(),

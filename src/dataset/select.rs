@@ -44,11 +44,24 @@ impl Dataset {
             recipe: self.recipe.clone(),
             inputs: named(inputs),
             outputs: named(outputs),
-            search: pick(&self.search, &indices, same_inputs),
-            validation: pick(&self.validation, &indices, same_inputs),
+            search: self.pick(&self.search, &indices, inputs.len(), same_inputs),
+            validation: self.pick(&self.validation, &indices, inputs.len(), same_inputs),
         };
         selected.validate()?;
         Ok(selected)
+    }
+
+    /// Some columns of a split, the first so many of them inputs.
+    fn pick(&self, split: &Split, indices: &[usize], inputs: usize, same_inputs: bool) -> Split {
+        let column = |&index: &usize| split.columns.get(index).cloned();
+        // Only outputs have free errors, and they stay outputs.
+        let free = |&index: &usize| split.free.get(index.checked_sub(self.inputs.len())?).cloned();
+        Split {
+            columns: indices.iter().filter_map(column).collect(),
+            weights: split.weights.clone(),
+            free: indices[inputs..].iter().filter_map(free).collect(),
+            grid: if same_inputs { split.grid.clone() } else { Vec::new() },
+        }
     }
 
     fn column(&self, index: usize) -> Option<&Column> {
@@ -78,13 +91,5 @@ pub(super) fn unknown_column<'a>(
         column: name.into(),
         suggestion: nearest(name, available.iter().copied()).map(Into::into),
         available: available.join(", "),
-    }
-}
-
-fn pick(split: &Split, indices: &[usize], same_inputs: bool) -> Split {
-    Split {
-        columns: indices.iter().filter_map(|&index| split.columns.get(index).cloned()).collect(),
-        weights: split.weights.clone(),
-        grid: if same_inputs { split.grid.clone() } else { Vec::new() },
     }
 }

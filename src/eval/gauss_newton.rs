@@ -2,7 +2,7 @@
 
 use super::isa::by_isa;
 use super::kernels::{CHUNK_BLOCKS, Chunk, Source};
-use super::loss::sum;
+use super::loss::{beyond, sum};
 use super::{Evaluator, Samples, Tape, run};
 use crate::num::Lanes;
 
@@ -77,8 +77,11 @@ unsafe fn accumulate_in<L: Lanes>(
     let output = |index: u16| chunk.source(chunk.tape.outputs[usize::from(index)]);
     for (o, entries) in jacobian.entries[..jacobian.outputs].iter().enumerate() {
         let weights = chunk.rows_of(chunk.samples.weights(o));
-        let residual =
-            Residual { values: output(o as u16), targets: chunk.rows_of(chunk.samples.target(o)) };
+        let residual = Residual {
+            values: output(o as u16),
+            targets: chunk.rows_of(chunk.samples.target(o)),
+            free: chunk.samples.free(o).map(|free| chunk.rows_of(free)),
+        };
         // SAFETY: promised by the caller; every source holds the chunk's blocks.
         unsafe {
             equations.sum_of_squares += residual.squares::<L>(weights, chunk.blocks);
@@ -103,10 +106,13 @@ unsafe fn accumulate_in<L: Lanes>(
     }
 }
 
-/// `f − y` of one value in a chunk.
+/// `f − y` of one value in a chunk, or what of it is not free. (The equations' matrix counts all
+/// samples all the same: it is that of the least squares to the nearest values without an error,
+/// whose solution is never worse.)
 struct Residual {
     values: Source,
     targets: Source,
+    free: Option<Source>,
 }
 
 impl Residual {
@@ -115,7 +121,13 @@ impl Residual {
     #[inline(always)]
     unsafe fn block<L: Lanes>(&self, i: usize) -> L {
         // SAFETY: promised by the caller.
-        unsafe { self.values.block::<L>(i) - self.targets.block::<L>(i) }
+        unsafe {
+            let error = self.values.block::<L>(i) - self.targets.block::<L>(i);
+            match self.free {
+                Some(free) => beyond(error, free.block::<L>(i)),
+                None => error,
+            }
+        }
     }
 
     /// `Σ w r²`

@@ -8,7 +8,7 @@ use crate::num::Lanes;
 /// Errors against the samples' targets, for each output.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Loss {
-    /// `Σ w (f − y)²`: in `f32` within a lane of a chunk, in `f64` beyond. Not finite if any
+    /// `Σ w (f − y)²`, of errors that are free in part the rest: in `f32` within a lane of a chunk, in `f64` beyond. Not finite if any
     /// of the program's outputs is not.
     pub sum_of_squares: Vec<f64>,
     /// `max |f − y|`, unweighted; NaN if any of the program's outputs is.
@@ -71,20 +71,35 @@ unsafe fn accumulate_in<L: Lanes>(chunk: &Chunk, loss: &mut Loss) {
         let weights = chunk.rows_of(chunk.samples.weights(o));
         let values = chunk.source(output);
         let targets = chunk.rows_of(chunk.samples.target(o));
+        let free = chunk.samples.free(o).map(|free| chunk.rows_of(free));
         // SAFETY: promised by the caller; block `i` lies within the chunk.
         unsafe {
             let mut squares = L::broadcast(0.0);
             let mut largest = L::broadcast(0.0);
             for i in 0..chunk.blocks {
                 let difference = values.block::<L>(i) - targets.block::<L>(i);
-                let weighted = weights.block::<L>(i) * difference;
-                squares = weighted.fma(difference, squares);
                 largest = largest.maximum(difference.abs());
+                let counted = match free {
+                    Some(free) => beyond(difference, free.block::<L>(i)),
+                    None => difference,
+                };
+                let weighted = weights.block::<L>(i) * counted;
+                squares = weighted.fma(counted, squares);
             }
             loss.sum_of_squares[o] += sum(squares);
             loss.max_error[o] = Lanes::maximum(loss.max_error[o], max(largest));
         }
     }
+}
+
+/// What of an error exceeds that which is free.
+///
+/// # Safety
+/// The processor has `L`.
+#[inline(always)]
+pub(super) unsafe fn beyond<L: Lanes>(error: L, free: L) -> L {
+    // SAFETY: promised by the caller.
+    unsafe { error - error.minimum(free).maximum(L::broadcast(0.0) - free) }
 }
 
 /// The lanes as an array.

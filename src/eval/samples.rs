@@ -16,7 +16,8 @@ pub struct Samples {
     blocks: usize,
     inputs: usize,
     outputs: usize,
-    /// Inputs, outputs, each output's weights; `blocks` each.
+    /// Inputs, outputs, each output's weights, and where errors may be free, each output's free errors;
+    /// `blocks` each.
     values: Vec<Block>,
     total_weight: f64,
 }
@@ -104,6 +105,19 @@ impl Samples {
         self.total_weight += change;
     }
 
+    /// Makes errors of one output up to these free: only what exceeds them counts in sums of squares.
+    ///
+    /// # Panics
+    /// If there are fewer errors than samples, or no such output.
+    pub fn set_free(&mut self, output: usize, errors: &[f32]) {
+        assert!(output < self.outputs, "one of the outputs");
+        let first = (self.inputs + 2 * self.outputs) * self.blocks;
+        self.values.resize(first + self.outputs * self.blocks, Block([0.0; BLOCK]));
+        let lanes: &mut [f32] =
+            bytemuck::cast_slice_mut(&mut self.values[first + output * self.blocks..]);
+        lanes[..self.rows].copy_from_slice(&errors[..self.rows]);
+    }
+
     /// What an output should be, sample by sample.
     ///
     /// # Panics
@@ -114,6 +128,12 @@ impl Samples {
 
     pub(super) fn weights(&self, output: usize) -> &[Block] {
         self.column(self.inputs + self.outputs + output)
+    }
+
+    /// The errors of an output that are free, if some are.
+    pub(super) fn free(&self, output: usize) -> Option<&[Block]> {
+        let first = (self.inputs + 2 * self.outputs + output) * self.blocks;
+        self.values.get(first..first + self.blocks)
     }
 
     pub(super) fn target(&self, output: usize) -> &[Block] {

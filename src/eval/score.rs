@@ -13,6 +13,9 @@ pub struct OutputError {
     /// Root mean square of the errors relative to the value; values below a thousandth of the output's
     /// largest count as that.
     pub relative: f64,
+    /// Root mean square of what exceeds the errors that nobody sees; none where all errors count.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub visible: Option<f64>,
 }
 
 /// A program's errors on a dataset. What is not finite is infinite.
@@ -37,7 +40,9 @@ impl Score {
             let samples = Samples::new(split, inputs);
             let values = evaluator.outputs(&tape, &samples);
             let targets = &split.columns[inputs..];
-            values.iter().zip(targets).map(|(f, y)| output_error(f, y, weight)).collect()
+            let free = (0..values.len()).map(|o| split.free.get(o).map(Vec::as_slice));
+            let pairs = values.iter().zip(targets).zip(free);
+            pairs.map(|((f, y), free)| output_error(f, y, free, weight)).collect()
         };
         Score {
             search: errors(&dataset.search, &|_| 1.0),
@@ -62,26 +67,45 @@ pub fn joint(errors: &[OutputError]) -> OutputError {
         rmse: root_mean(|e| e.rmse),
         max: errors.iter().map(|e| e.max).fold(0.0, f64::max),
         relative: root_mean(|e| e.relative),
+        visible: errors
+            .iter()
+            .all(|e| e.visible.is_some())
+            .then(|| root_mean(|e| e.visible.unwrap_or(0.0))),
     }
 }
 
 /// The share of an output's largest value below which errors are no longer relative.
 pub const RELATIVE_FLOOR: f64 = 1e-3;
 
-fn output_error(values: &[f32], targets: &[f32], weight: &dyn Fn(usize) -> f64) -> OutputError {
+fn output_error(
+    values: &[f32],
+    targets: &[f32],
+    free: Option<&[f32]>,
+    weight: &dyn Fn(usize) -> f64,
+) -> OutputError {
     let largest = targets.iter().fold(f32::MIN_POSITIVE, |largest, y| largest.max(y.abs()));
     let floor = RELATIVE_FLOOR * f64::from(largest);
-    let (mut squares, mut relative, mut weights, mut max) = (0.0, 0.0, 0.0, 0.0f64);
+    let (mut squares, mut relative, mut visible) = (0.0, 0.0, 0.0);
+    let (mut weights, mut max) = (0.0, 0.0f64);
     for (row, (&f, &y)) in values.iter().zip(targets).enumerate() {
         if !f.is_finite() {
             let infinite = f64::INFINITY;
-            return OutputError { rmse: infinite, max: infinite, relative: infinite };
+            let visible = free.map(|_| infinite);
+            return OutputError { rmse: infinite, max: infinite, relative: infinite, visible };
         }
         let difference = f64::from(f) - f64::from(y);
         squares += weight(row) * difference.powi(2);
         relative += weight(row) * (difference / f64::from(y).abs().max(floor)).powi(2);
+        let hidden = free.map_or(0.0, |free| f64::from(free[row]));
+        visible += weight(row) * (difference.abs() - hidden).max(0.0).powi(2);
         weights += weight(row);
         max = max.max(difference.abs());
     }
-    OutputError { rmse: (squares / weights).sqrt(), max, relative: (relative / weights).sqrt() }
+    let root_mean = |sum: f64| (sum / weights).sqrt();
+    OutputError {
+        rmse: root_mean(squares),
+        max,
+        relative: root_mean(relative),
+        visible: free.map(|_| root_mean(visible)),
+    }
 }

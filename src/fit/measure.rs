@@ -19,15 +19,21 @@ pub enum Measure {
     /// Root mean square of the errors relative to the value; values below a thousandth of an output's
     /// largest count as that.
     Relative,
+    /// As weighted, of what exceeds the errors that nobody sees.
+    Visible,
 }
 
 impl Measure {
-    pub const ALL: [Measure; 4] =
-        [Measure::Rmse, Measure::Max, Measure::Weighted, Measure::Relative];
+    pub const ALL: [Measure; 5] =
+        [Measure::Rmse, Measure::Max, Measure::Weighted, Measure::Relative, Measure::Visible];
 
     /// What is made small where nothing else is asked for: weights that the data have are meant.
     pub fn usual(split: &Split) -> Measure {
-        if split.weights.is_empty() { Measure::Rmse } else { Measure::Weighted }
+        match (split.free.is_empty(), split.weights.is_empty()) {
+            (false, _) => Measure::Visible,
+            (true, false) => Measure::Weighted,
+            (true, true) => Measure::Rmse,
+        }
     }
 
     /// Samples of some rows of a split, weighted so that what is to be made small is
@@ -40,6 +46,13 @@ impl Measure {
         for output in 0..samples.outputs() {
             let weights: Vec<f32> = match self {
                 Measure::Weighted => continue,
+                Measure::Visible => {
+                    if let Some(free) = split.free.get(output) {
+                        let free: Vec<f32> = rows.iter().map(|&row| free[row as usize]).collect();
+                        samples.set_free(output, &free);
+                    }
+                    continue;
+                }
                 Measure::Rmse | Measure::Max => vec![1.0; samples.rows()],
                 Measure::Relative => {
                     relative(samples.targets(output), &split.columns[inputs + output])
@@ -71,6 +84,7 @@ impl OutputError {
             Measure::Rmse | Measure::Weighted => self.rmse,
             Measure::Max => self.max,
             Measure::Relative => self.relative,
+            Measure::Visible => self.visible.unwrap_or(self.rmse),
         }
     }
 }
@@ -82,6 +96,7 @@ impl fmt::Display for Measure {
             Measure::Max => "max",
             Measure::Weighted => "weighted",
             Measure::Relative => "relative",
+            Measure::Visible => "visible",
         })
     }
 }

@@ -2,6 +2,7 @@
 
 use crate::op::Op;
 use crate::suggest::did_you_mean;
+use ron::extensions::Extensions;
 use serde::de::DeserializeOwned;
 use std::borrow::Cow;
 use std::path::Path;
@@ -47,13 +48,14 @@ pub(crate) fn find<'a>(
     })
 }
 
-/// The content of a file.
+/// The content of a file; `Some` may be left out.
 pub(crate) fn parse<T: DeserializeOwned>(
     kind: &'static str,
     path: &str,
     text: &str,
 ) -> Result<T, FileError> {
-    ron::from_str(text).map_err(|error| FileError::Syntax {
+    let lenient = ron::Options::default().with_default_extension(Extensions::IMPLICIT_SOME);
+    lenient.from_str(text).map_err(|error| FileError::Syntax {
         kind,
         path: path.to_owned(),
         line: error.span.start.line,

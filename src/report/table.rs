@@ -14,7 +14,8 @@ pub struct Published {
 /// The front by rising cost, each member's formula under its numbers, incumbents where their cost
 /// puts them. Errors are over all outputs; those by output follow where there are several.
 pub fn front_table(front: &Front, incumbents: &[Published], outputs: &[String]) -> String {
-    let mut text = heading(outputs);
+    let hides = |member: &FrontMember| member.search_error().visible.is_some();
+    let mut text = heading(outputs, front.members.iter().any(hides));
     let mut waiting: Vec<&Published> = incumbents.iter().collect();
     waiting.sort_by(|a, b| a.member.cost.total_cmp(&b.member.cost));
     let mut waiting = waiting.into_iter().peekable();
@@ -29,13 +30,16 @@ pub fn front_table(front: &Front, incumbents: &[Published], outputs: &[String]) 
     text
 }
 
-fn heading(outputs: &[String]) -> String {
+fn heading(outputs: &[String], hidden: bool) -> String {
     let mut text = format!("{:>4}  {:>6}  {:>8} {:>8}  ", "#", "cycles", "RMSE", "max");
     let _ = write!(text, "{:>8} {:>8}", "val.RMSE", "val.max");
     if outputs.len() > 1 {
         for output in outputs {
             let _ = write!(text, "  {:>17}", format!("{output} RMSE, max"));
         }
+    }
+    if hidden {
+        let _ = write!(text, "  {:>8}", "visible");
     }
     text + "\n"
 }
@@ -54,6 +58,9 @@ fn numbers(member: &FrontMember) -> String {
         for output in &member.score.search {
             let _ = write!(text, "  {} {}", error(output.rmse), error(output.max));
         }
+    }
+    if let Some(visible) = search.visible {
+        let _ = write!(text, "  {}", error(visible));
     }
     text
 }
@@ -79,6 +86,7 @@ pub fn title(measure: Measure) -> &'static str {
         Measure::Max => "max",
         Measure::Weighted => "weighted RMSE",
         Measure::Relative => "relative RMSE",
+        Measure::Visible => "visible RMSE",
     }
 }
 

@@ -112,6 +112,17 @@ impl Front {
         Front { measure, members }
     }
 
+    /// The cheapest member whose error is at most `max_error`, if that is given, else the most
+    /// accurate; of those that cost at most `max_cost`.
+    pub fn within(&self, max_cost: Option<f64>, max_error: Option<f64>) -> Option<&FrontMember> {
+        let (cost, error) = (max_cost.unwrap_or(f64::INFINITY), max_error.unwrap_or(f64::INFINITY));
+        let mut suitable = self.members.iter().filter(|member| {
+            member.cost <= cost && member.search_error().of(self.measure) <= error
+        });
+        // The front falls: the cheapest is the first, the most accurate the last.
+        if max_error.is_some() { suitable.next() } else { suitable.next_back() }
+    }
+
     /// The member that gains most over a straight line between the ends, in the logarithm of the
     /// error: past it, cycles buy less.
     pub fn knee(&self) -> Option<&FrontMember> {

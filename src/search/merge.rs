@@ -17,7 +17,8 @@ pub struct Incompatible {
 /// searches they came from, each once. Nothing of no runs.
 ///
 /// # Errors
-/// Runs of other data, columns, grammars, GPU profiles or error measures.
+/// Runs of other data, scenes, columns, grammars, GPU profiles, error measures or requirements. (What a
+/// search was told about where to look, such as transforms, may differ: its formulas are as good.)
 pub fn merge(runs: Vec<(Run, Front)>) -> Result<Option<(Run, Front)>, Incompatible> {
     let mut sources = Vec::new();
     let mut members = Vec::new();
@@ -42,9 +43,17 @@ fn check(one: &Run, other: &Run) -> Result<(), Incompatible> {
         format!("{} → {}", names.inputs.join(", "), names.outputs.join(", "))
     };
     let data = |run: &Run| format!("{} ({})", run.name, run.dataset_hash);
+    let scene = |run: &Run| match &run.scene {
+        Some(scene) => format!("{} ({})", scene.name, scene.summary()),
+        None => "none".to_owned(),
+    };
+    if one.scene != other.scene {
+        return Err(Incompatible { what: "scene", one: scene(one), other: scene(other) });
+    }
     let differences = [
         ("dataset", data(one), data(other)),
         ("columns", names(one), names(other)),
+        ("requirements", requirements(one), requirements(other)),
         ("grammar", one.grammar.clone(), other.grammar.clone()),
         ("GPU profile", one.gpu.clone(), other.gpu.clone()),
         ("error measure", one.settings.measure.to_string(), other.settings.measure.to_string()),
@@ -53,6 +62,16 @@ fn check(one: &Run, other: &Run) -> Result<(), Incompatible> {
         None => Ok(()),
         Some((what, one, other)) => Err(Incompatible { what, one, other }),
     }
+}
+
+/// What the formulas of a run must be, in any order.
+fn requirements(run: &Run) -> String {
+    let names = run.names();
+    let mut texts: Vec<String> =
+        run.settings.requirements.iter().map(|one| one.text(&names)).collect();
+    texts.sort();
+    texts.dedup();
+    if texts.is_empty() { "none".to_owned() } else { texts.join(",") }
 }
 
 /// What is said of all searches together depends on their set alone.
@@ -75,7 +94,8 @@ mod tests {
     use super::*;
     use crate::eval::{OutputError, Score};
     use crate::program::{Names, parse};
-    use crate::search::{Counts, FrontMember, Settings};
+    use crate::scene::Scene;
+    use crate::search::{Counts, FrontMember, Requirement, Settings};
 
     fn run(seed: u64, members: &[(f64, f64, &str)]) -> (Run, Front) {
         let column = |name: &str| crate::dataset::Column {
@@ -88,6 +108,7 @@ mod tests {
             command: vec![format!("lgp search --seed {seed}")],
             dataset: "d.bin".into(),
             dataset_hash: "ab".into(),
+            scene: None,
             name: "d".into(),
             inputs: vec![column("x")],
             outputs: vec![column("y")],
@@ -104,7 +125,7 @@ mod tests {
         };
         let names = Names::new(["x"], ["y"]);
         let member = |&(cost, rmse, formula): &(f64, f64, &str)| {
-            let errors = vec![OutputError { rmse, max: rmse, relative: rmse }];
+            let errors = vec![OutputError { rmse, max: rmse, relative: rmse, visible: None }];
             FrontMember {
                 program: parse(formula, &names).unwrap(),
                 cost,
@@ -143,6 +164,16 @@ mod tests {
         b.0.gpu = "rdna2".into();
         let error = merge(vec![a.clone(), b]).unwrap_err().to_string();
         assert!(error.contains("GPU profile: gcn and rdna2"), "{error}");
+        let mut b = run(2, &[]);
+        let names = b.0.names();
+        b.0.settings.requirements = vec![Requirement::parse("y.range=0..1", &names).unwrap()];
+        let error = merge(vec![a.clone(), b]).unwrap_err().to_string();
+        assert!(error.contains("requirements: none and y.range=0..1"), "{error}");
+        let mut b = run(2, &[]);
+        b.0.scene = Some(Scene { name: "half".into(), ..Scene::default() });
+        assert!(
+            merge(vec![a.clone(), b]).unwrap_err().to_string().contains("scene: none and half")
+        );
         let mut c = run(2, &[]);
         c.0.dataset_hash = "cd".into();
         assert!(merge(vec![a, c]).unwrap_err().to_string().contains("dataset: d (ab) and d (cd)"));

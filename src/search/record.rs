@@ -6,6 +6,7 @@ use crate::dataset::{Column, Dataset, replace_file};
 use crate::eval::{OutputError, Score};
 use crate::fit::Measure;
 use crate::program::{Names, parse};
+use crate::scene::Scene;
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
@@ -19,6 +20,9 @@ pub struct Run {
     pub command: Vec<String>,
     pub dataset: PathBuf,
     pub dataset_hash: String,
+    /// What was needed of the dataset; none for all of it.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub scene: Option<Scene>,
     /// The dataset's name.
     pub name: String,
     /// The columns that were inputs and outputs.
@@ -227,7 +231,9 @@ impl Search {
             .strip_prefix(CHECKPOINT_MAGIC)
             .ok_or_else(|| refuse("a checkpoint of another version; start the search anew"))?;
         let body = body.strip_prefix(hash.as_bytes()).ok_or_else(|| {
-            refuse("a checkpoint of other data; give the dataset and columns it was made with")
+            refuse(
+                "a checkpoint of other data; give the dataset, scene and columns it was made with",
+            )
         })?;
         postcard::from_bytes(body).map_err(|error| refuse(&error.to_string()))
     }

@@ -72,6 +72,30 @@ impl Requirement {
     }
 }
 
+impl Requirement {
+    /// What [`Requirement::parse`] reads as this.
+    pub fn text(&self, names: &Names) -> String {
+        let of = |output: Option<u16>| {
+            output.map_or_else(String::new, |o| format!("{}.", names.outputs[usize::from(o)]))
+        };
+        let input = |input: u16| &names.inputs[usize::from(input)];
+        match *self {
+            Requirement::Range { output, low, high } => {
+                format!("{}range={low}..{high}", of(output))
+            }
+            Requirement::Monotone { output, input: along, rising } => {
+                let direction = if rising { "rising" } else { "falling" };
+                format!("{}{direction}={}", of(output), input(along))
+            }
+            Requirement::Ends { output, input: along } => {
+                format!("{}ends={}", of(output), input(along))
+            }
+            Requirement::Operation(op) => format!("uses={}", op.name()),
+            Requirement::Input(read) => format!("uses={}", input(read)),
+        }
+    }
+}
+
 fn place(name: &str, names: &[String], kind: &str) -> Result<u16, String> {
     names.iter().position(|known| known == name).map(|at| at as u16).ok_or_else(|| {
         let meant = did_you_mean(name, names.iter().map(String::as_str));
@@ -189,6 +213,7 @@ pub(super) fn with_ends(dataset: &Dataset, requirements: &[Requirement]) -> Spli
                 to.push(from[row as usize]);
             }
             split.weights.push(WEIGHT_OF_ENDS);
+            split.free.iter_mut().for_each(|free| free.push(0.0));
         }
         split.grid.clear();
     }

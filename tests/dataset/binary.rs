@@ -162,7 +162,11 @@ fn split(columns: usize) -> impl Strategy<Value = Split> {
     (1usize..20, any::<bool>()).prop_flat_map(move |(rows, weighted)| {
         let values = proptest::collection::vec(proptest::collection::vec(finite(), rows), columns);
         let weights = proptest::collection::vec(0.25f32..4.0, if weighted { rows } else { 0 });
-        (values, weights).prop_map(|(columns, weights)| Split { columns, weights, grid: vec![] })
+        (values, weights).prop_map(|(columns, weights)| Split {
+            columns,
+            weights,
+            ..Split::default()
+        })
     })
 }
 

@@ -24,13 +24,13 @@ pub fn sample() -> Dataset {
                 vec![0.1, 0.2, 0.3, 0.4],
                 vec![0.5, 0.6, 0.7, 0.8],
             ],
-            weights: vec![],
             grid: vec![2, 2],
+            ..Split::default()
         },
         validation: Split {
             columns: vec![vec![0.5], vec![0.25], vec![0.15], vec![0.65]],
             weights: vec![2.0],
-            grid: vec![],
+            ..Split::default()
         },
     }
 }

@@ -1,0 +1,118 @@
+use super::output::check_writable;
+use super::{Common, Failure};
+use crate::dataset::{Error, Table, replace_file};
+use crate::scene::{Logged, MOST_JOINT, Scene};
+use clap::Subcommand;
+use serde::Serialize;
+use std::path::{Path, PathBuf};
+
+/// Make a scene of what is known of a use
+#[derive(clap::Args)]
+pub struct Args {
+    #[command(subcommand)]
+    from: From,
+}
+
+#[derive(Subcommand)]
+enum From {
+    From(FromArgs),
+}
+
+/// Make a scene of logged pixels: which values of the inputs occur, and how often
+///
+/// The log is a CSV table, one row a pixel, its columns called like the dataset's inputs. A column
+/// called `weight` weighs the rows. Columns that never change become fixed inputs.
+#[derive(clap::Args)]
+struct FromArgs {
+    /// The table: comma-separated numbers under a line of column names
+    log: PathBuf,
+    /// Where to write the scene [default: the table's name with .ron]
+    #[arg(short, long, value_name = "FILE")]
+    output: Option<PathBuf>,
+    /// Only these columns [default: all]
+    #[arg(long, value_name = "A,B", value_delimiter = ',')]
+    inputs: Option<Vec<String>>,
+    /// The column that weighs the rows [default: weight, if there is one]
+    #[arg(long, value_name = "COLUMN")]
+    weight: Option<String>,
+    /// Bins along each input
+    #[arg(long, value_name = "N", default_value_t = 16)]
+    #[arg(value_parser = clap::value_parser!(u16).range(1..=256))]
+    bins: u16,
+    /// A histogram of each input by itself [default: one of all, if they are three at most]
+    #[arg(long)]
+    separate: bool,
+}
+
+#[derive(Serialize)]
+struct Made {
+    scene: Scene,
+    path: PathBuf,
+    pixels: usize,
+}
+
+/// The column that holds weights unless another is named.
+const WEIGHT: &str = "weight";
+
+pub fn run(args: &Args, common: &Common) -> Result<(), Failure> {
+    let From::From(args) = &args.from;
+    let table = Table::read(&args.log)?;
+    let path = args.output.clone().unwrap_or_else(|| default_output(&args.log));
+    if path == args.log {
+        let message =
+            format!("{}: the scene would replace the log; give another -o", path.display());
+        return Err(Failure::usage(message));
+    }
+    check_writable(&path)?;
+    let weights = weights(args, &table)?;
+    let columns = columns(args, &table)?;
+    let logged: Vec<Logged> = columns
+        .iter()
+        .map(|&index| Logged { name: &table.names[index], values: &table.columns[index] })
+        .collect();
+    let name = path.file_stem().unwrap_or_default().to_string_lossy();
+    let joint = !args.separate && logged.len() <= MOST_JOINT;
+    let weights = weights.map(|index| table.columns[index].as_slice());
+    let scene = Scene::logged(&name, &logged, weights, args.bins.into(), joint)?;
+    replace_file(&path, scene.to_ron().as_bytes())
+        .map_err(|error| Failure::unwritable(&path, error))?;
+    let pixels = table.columns[0].len();
+    let text = format!("{}: {pixels} pixels; {}", path.display(), scene.summary());
+    common.summary(&Made { scene, path, pixels }, &text)
+}
+
+fn default_output(log: &Path) -> PathBuf {
+    Path::new(log.file_stem().unwrap_or_default()).with_extension("ron")
+}
+
+fn weights(args: &FromArgs, table: &Table) -> Result<Option<usize>, Failure> {
+    let index = match &args.weight {
+        Some(name) => Some(table.index_of(&args.log, name)?),
+        None => table.names.iter().position(|name| name == WEIGHT),
+    };
+    let Some(index) = index else { return Ok(None) };
+    match table.columns[index].iter().zip(&table.lines).find(|(weight, _)| **weight < 0.0) {
+        None => Ok(Some(index)),
+        Some((&value, &line)) => {
+            let column = table.names[index].clone();
+            Err(Error::NegativeWeight { path: args.log.clone(), line, column, value }.into())
+        }
+    }
+}
+
+/// The inputs' columns.
+fn columns(args: &FromArgs, table: &Table) -> Result<Vec<usize>, Failure> {
+    let weight = args.weight.as_deref().unwrap_or(WEIGHT);
+    let indices: Vec<usize> = match &args.inputs {
+        Some(names) => {
+            let indices: Result<_, Error> =
+                names.iter().map(|name| table.index_of(&args.log, name)).collect();
+            indices?
+        }
+        None => (0..table.names.len()).filter(|&index| table.names[index] != weight).collect(),
+    };
+    match indices.is_empty() {
+        true => Err(Error::NoInputs { path: args.log.clone() }.into()),
+        false => Ok(indices),
+    }
+}

@@ -1,0 +1,77 @@
+//! What a command works on: a dataset, or what a scene and a choice of columns leave of it.
+
+use super::{Failure, columns::Columns};
+use crate::cost::Profile;
+use crate::dataset::{Comparable, Dataset, incumbents_for, load_incumbents};
+use crate::report::table::Published;
+use crate::scene::Scene;
+use crate::search::FrontMember;
+use std::path::Path;
+
+/// A dataset as a command takes it.
+pub struct Subject {
+    /// As its file has it.
+    pub whole: Dataset,
+    pub scene: Option<Scene>,
+    pub dataset: Dataset,
+}
+
+impl Subject {
+    /// Loads a dataset, and chooses what is needed of it.
+    pub fn load(path: &Path, scene: Option<&str>, columns: &Columns) -> Result<Subject, Failure> {
+        let whole = Dataset::load(path)?;
+        let scene = scene.map(|name| Scene::find(name, path)).transpose()?;
+        Subject::new(whole, scene, |dataset| columns.of(dataset))
+    }
+
+    /// What a scene, if any, and then a choice leave of a dataset.
+    pub fn new(
+        whole: Dataset,
+        scene: Option<Scene>,
+        choose: impl FnOnce(&Dataset) -> Result<Dataset, Failure>,
+    ) -> Result<Subject, Failure> {
+        let dataset = match &scene {
+            Some(scene) => choose(&scene.over(&whole)?.dataset()?)?,
+            None => choose(&whole)?,
+        };
+        Ok(Subject { whole, scene, dataset })
+    }
+
+    /// The incumbents that define every output, scored.
+    pub fn published(&self, path: &Path, profile: &Profile) -> Result<Vec<Published>, Failure> {
+        let names = self.dataset.names();
+        let comparable = match &self.scene {
+            Some(scene) => self.incumbents_in(scene, path)?,
+            None => incumbents_for(path, &self.dataset)?,
+        };
+        let whole = comparable.into_iter().filter(|known| known.outputs == names.outputs);
+        Ok(whole
+            .map(|known| Published {
+                name: known.incumbent.name,
+                member: FrontMember::new(known.program, &self.dataset, profile, &names),
+            })
+            .collect())
+    }
+
+    /// The dataset's incumbents as the scene makes them, and those that were made for the scene:
+    /// `incumbents/<dataset>_<scene>.ron` beside the dataset's file.
+    fn incumbents_in(&self, scene: &Scene, path: &Path) -> Result<Vec<Comparable>, Failure> {
+        let view = scene.over(&self.whole)?;
+        let names = self.dataset.names();
+        let mut found = Vec::new();
+        if view.inputs() == names.inputs {
+            for known in incumbents_for(path, &self.whole)? {
+                let combined = view.program(&known.program, &known.outputs, &names.outputs);
+                let outputs = names.outputs.clone();
+                found.extend(combined.map(|program| Comparable { program, outputs, ..known }));
+            }
+        }
+        let folder = path.parent().unwrap_or(Path::new("")).join("incumbents");
+        let own = folder.join(&self.dataset.name).with_extension("ron");
+        if own.is_file() {
+            let own = load_incumbents(&own)?;
+            found.extend(own.iter().filter_map(|known| known.compared_on(&self.dataset)));
+        }
+        Ok(found)
+    }
+}

@@ -1,0 +1,190 @@
+//! Operations that never act where a scene's inputs are: a minimum whose second argument is always the
+//! greater, a saturation of what stays between 0 and 1.
+
+use crate::dataset::{Dataset, Split};
+use crate::eval::{Evaluator, Samples, Tape};
+use crate::num::{Interval, enclose};
+use crate::op::Op;
+use crate::program::{Arg, Draft, Program, effective};
+use crate::stability::{Bound, Claim, Limits, Rounding, Status, prove};
+use serde::{Deserialize, Serialize};
+
+/// How it is known that something never happens.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub enum Evidence {
+    /// Wherever the inputs are in their domain.
+    #[serde(rename = "proved")]
+    Proved,
+    /// On every sample of both splits.
+    #[serde(rename = "sampled")]
+    Sampled,
+}
+
+/// An operation that never acts, and the program without it.
+pub(super) struct Idle {
+    pub op: Op,
+    pub evidence: Evidence,
+    pub program: Program,
+}
+
+/// What an operation always is, if a difference stays within a range.
+struct Case {
+    /// Of the first and the second, or the first alone.
+    difference: (Arg, Option<Arg>),
+    within: [f32; 2],
+    becomes: Value,
+}
+
+#[derive(Clone, Copy)]
+enum Value {
+    Arg(Arg),
+    Constant(f32),
+}
+
+const NOT_NEGATIVE: [f32; 2] = [0.0, f32::MAX];
+const NOT_POSITIVE: [f32; 2] = [f32::MIN, 0.0];
+const POSITIVE: [f32; 2] = [f32::MIN_POSITIVE, f32::MAX];
+const NEGATIVE: [f32; 2] = [f32::MIN, -f32::MIN_POSITIVE];
+
+fn cases(op: Op, args: &[Arg]) -> Vec<Case> {
+    use Value::{Arg as Is, Constant};
+    let alone = |within, becomes| Case { difference: (args[0], None), within, becomes };
+    let less = |within, becomes| Case { difference: (args[1], Some(args[0])), within, becomes };
+    match op {
+        Op::Abs => vec![alone(NOT_NEGATIVE, Is(args[0]))],
+        Op::Saturate => vec![
+            alone([0.0, 1.0], Is(args[0])),
+            alone([1.0, f32::MAX], Constant(1.0)),
+            alone(NOT_POSITIVE, Constant(0.0)),
+        ],
+        Op::Min => vec![less(NOT_NEGATIVE, Is(args[0])), less(NOT_POSITIVE, Is(args[1]))],
+        Op::Max => vec![less(NOT_NEGATIVE, Is(args[1])), less(NOT_POSITIVE, Is(args[0]))],
+        Op::Step => vec![less(NOT_NEGATIVE, Constant(1.0)), less(NEGATIVE, Constant(0.0))],
+        Op::Select => vec![less(POSITIVE, Is(args[2])), less(NOT_POSITIVE, Is(args[3]))],
+        _ => Vec::new(),
+    }
+}
+
+/// By how much an operation may act and still be said never to: what it does then is rounding, unless
+/// it chooses between two things.
+fn slack(op: Op) -> f32 {
+    if matches!(op, Op::Step | Op::Select) { 0.0 } else { 1e-6 }
+}
+
+/// The first operation that never acts on the dataset's samples, if any, and whether that is proved for
+/// the domain of its inputs.
+pub(super) fn first_idle(program: &Program, dataset: &Dataset) -> Option<Idle> {
+    let domain: Vec<Interval> =
+        dataset.inputs.iter().map(|input| enclose(input.domain[0], input.domain[1])).collect();
+    for (i, instr) in program.instrs.iter().enumerate() {
+        for case in cases(instr.op(), instr.args()) {
+            let Some(difference) = case.difference_of(program) else { continue };
+            let slack = slack(instr.op());
+            let holds = |split: &Split| holds_on(&difference, split, case.within, slack);
+            if !(holds(&dataset.search) && holds(&dataset.validation)) {
+                continue;
+            }
+            let evidence = match holds_over(&difference, &domain, case.within, slack) {
+                true => Evidence::Proved,
+                false => Evidence::Sampled,
+            };
+            let program = without(program, i, case.becomes)?;
+            return Some(Idle { op: instr.op(), evidence, program });
+        }
+    }
+    None
+}
+
+impl Case {
+    /// The program of the difference alone.
+    fn difference_of(&self, program: &Program) -> Option<Program> {
+        let mut draft = program.clone().into_draft();
+        let output = match self.difference {
+            (first, None) => first,
+            (first, Some(second)) => draft.push(Op::Sub, &[first, second]),
+        };
+        draft.outputs = vec![output];
+        Some(effective(&Program::verify(draft).ok()?))
+    }
+}
+
+/// Whether a program's output stays in a range on all rows of a split.
+fn holds_on(program: &Program, split: &Split, [low, high]: [f32; 2], slack: f32) -> bool {
+    let samples = Samples::new(split, program.inputs);
+    let values = Evaluator::default().outputs(&Tape::new(program), &samples);
+    values[0].iter().all(|value| (low - slack..=high + slack).contains(value))
+}
+
+/// Boxes that a proof may look at.
+const BOXES: usize = 4096;
+
+/// Whether it is proved, for the interpreter's arithmetic, that a program's output stays in a range
+/// wherever its inputs are in theirs.
+fn holds_over(program: &Program, domain: &[Interval], [low, high]: [f32; 2], slack: f32) -> bool {
+    let bounds = [Bound::AtLeast(low.into()), Bound::AtMost(high.into())];
+    let claims = bounds.map(|bound| Claim::of(0, bound));
+    let limits = Limits { slack: slack.into(), boxes: BOXES, ..Limits::new(Rounding::Exact) };
+    prove(program, domain, &claims, &limits).iter().all(|status| *status == Status::Proved)
+}
+
+/// The program with an instruction's result replaced.
+fn without(program: &Program, at: usize, value: Value) -> Option<Program> {
+    let mut draft: Draft = program.clone().into_draft();
+    let value = match value {
+        Value::Arg(arg) => arg,
+        Value::Constant(constant) => draft.constant(constant),
+    };
+    let replaced = |arg: &mut Arg| {
+        if *arg == Arg::Result(at as u16) {
+            *arg = value;
+        }
+    };
+    draft.instrs.iter_mut().for_each(|instr| instr.args_mut().iter_mut().for_each(replaced));
+    draft.outputs.iter_mut().for_each(replaced);
+    Some(effective(&Program::verify(draft).ok()?))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::dataset::Column;
+    use crate::program::{Names, parse, print};
+
+    fn line(rows: usize) -> Dataset {
+        let xs: Vec<f32> = (0..rows).map(|i| (i as f32 + 0.5) / rows as f32).collect();
+        let split = Split { columns: vec![xs.clone(), xs], ..Split::default() };
+        let column =
+            |name: &str| Column { name: name.into(), unit: "1".into(), domain: [0.0, 1.0] };
+        Dataset {
+            name: "line".into(),
+            recipe: String::new(),
+            inputs: vec![column("x")],
+            outputs: vec![column("y")],
+            search: split.clone(),
+            validation: split,
+        }
+    }
+
+    #[test]
+    fn what_never_acts_is_found_and_said_how() {
+        use Evidence::{Proved, Sampled};
+        let names = Names::new(["x"], ["y"]);
+        for (text, left) in [
+            ("y = saturate(x)", Some((Proved, "y = x"))),
+            ("y = min(x, 2 - x)", Some((Proved, "y = x"))),
+            // One box is not enough: x(1 − x) is at most 1/4.
+            ("y = saturate(x*(1 - x) + 0.5)", Some((Proved, "y = x*(1 - x) + 0.5"))),
+            ("y = select(x < 3, x*x, 1)", Some((Proved, "y = x^2"))),
+            ("y = step(-1, x)", Some((Proved, "y = 1"))),
+            ("y = saturate(x + 1)", Some((Proved, "y = 1"))),
+            // Between the samples, at both ends, it does act.
+            ("y = max(x, 0.001)", Some((Sampled, "y = x"))),
+            ("y = max(x, 0.3)", None),
+            ("y = saturate(2*x)", None),
+        ] {
+            let found = first_idle(&parse(text, &names).unwrap(), &line(100));
+            let found = found.map(|idle| (idle.evidence, print(&idle.program, &names)));
+            assert_eq!(found, left.map(|(e, t)| (e, t.to_owned())), "{text}");
+        }
+    }
+}

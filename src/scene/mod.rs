@@ -1,0 +1,204 @@
+//! Scenes: what a given use really needs of a dataset.
+//!
+//! A [`Scene`] says which values of the inputs occur, and how often; which inputs are fixed; and which
+//! combination of the outputs a shader really uses. [`Scene::over`] reads it over a dataset's
+//! columns, refusing what cannot be meant; the [`View`] that comes of it is a smaller dataset, and
+//! takes formulas over the whole dataset's columns to formulas over the view's.
+//!
+//! A scene is a `.ron` file:
+//!
+//! ```
+//! use lgp::dataset::{Column, Dataset, Split};
+//! use lgp::scene::Scene;
+//! let scene = Scene::parse("dielectric", r#"(
+//!     ranges: {"roughness": (0.25, 0.75)},
+//!     fixed: {"f0": 0.04},
+//!     outputs: {"specular": "f0*scale + bias"},
+//! )"#)?;
+//! # let column = |name: &str| Column { name: name.into(), unit: "1".into(), domain: [0.0, 1.0] };
+//! # let columns = vec![vec![0.0, 0.5, 1.0], vec![0.5, 0.75, 1.0], vec![0.5, 0.25, 0.0]];
+//! # let split = Split { columns, ..Split::default() };
+//! # let dataset = Dataset {
+//! #     name: "dfg".into(),
+//! #     recipe: String::new(),
+//! #     inputs: vec![column("roughness")],
+//! #     outputs: vec![column("scale"), column("bias")],
+//! #     search: split.clone(),
+//! #     validation: split,
+//! # };
+//! let view = scene.over(&dataset)?.dataset()?;
+//! assert_eq!(view.outputs[0].name, "specular");
+//! assert_eq!(view.search.columns, [[0.5], [0.28]]);
+//! # Ok::<(), lgp::scene::Error>(())
+//! ```
+
+mod combine;
+mod entries;
+mod error;
+mod fixed;
+mod histogram;
+mod idle;
+mod logged;
+mod quantisation;
+mod read;
+mod removal;
+mod specialize;
+mod view;
+
+pub use error::Error;
+pub use histogram::Histogram;
+pub use idle::Evidence;
+pub use logged::{Logged, MOST_JOINT};
+pub use quantisation::Quantisation;
+pub use specialize::{Change, Specialization, Step, specialize};
+pub use view::View;
+
+use crate::grammar::{FileError, file};
+use crate::suggest::did_you_mean;
+use serde::{Deserialize, Serialize};
+use std::fmt::Write;
+use std::path::Path;
+
+const KIND: &str = "scene";
+
+/// What a use needs of a dataset; every part may be left out.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Scene {
+    /// That of its file, unless the file gives another.
+    #[serde(default)]
+    pub name: String,
+    #[serde(default, skip_serializing_if = "String::is_empty")]
+    pub description: String,
+    /// Inputs, and the least and greatest value of each that occurs.
+    #[serde(default, with = "entries", skip_serializing_if = "Vec::is_empty")]
+    pub ranges: Vec<(String, [f64; 2])>,
+    /// Inputs that have one value, which are then no inputs any more; and names of values that
+    /// `outputs` uses.
+    #[serde(default, with = "entries", skip_serializing_if = "Vec::is_empty")]
+    pub fixed: Vec<(String, f64)>,
+    /// How often values of inputs occur; an input stands in one of them at most.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub histograms: Vec<Histogram>,
+    /// The outputs to regress on, each an expression over outputs, inputs and fixed values; where there
+    /// are none, the dataset's.
+    #[serde(default, with = "entries", skip_serializing_if = "Vec::is_empty")]
+    pub outputs: Vec<(String, String)>,
+    /// What the target's steps hide of errors.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub quantisation: Option<Quantisation>,
+    /// What may be spent, and what must be reached, on each kind of machine.
+    #[serde(default, with = "entries", skip_serializing_if = "Vec::is_empty")]
+    pub tiers: Vec<(String, Tier)>,
+}
+
+/// What a formula may cost, and how far it may be off.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[serde(default, deny_unknown_fields)]
+pub struct Tier {
+    /// Cycles.
+    pub max_cost: Option<f64>,
+    /// In the measure that is made small.
+    pub max_error: Option<f64>,
+}
+
+impl Scene {
+    /// A scene by the path of its file, or by the name of one in the folder `scenes` beside a
+    /// dataset's file.
+    ///
+    /// # Errors
+    /// No such file, or those of [`Scene::parse`].
+    pub fn find(name_or_path: &str, dataset: &Path) -> Result<Scene, Error> {
+        let given = Path::new(name_or_path);
+        let folder = dataset.parent().unwrap_or(Path::new("")).join("scenes");
+        let named = folder.join(name_or_path).with_extension("ron");
+        let is_name = given.extension().is_none() && !given.is_file();
+        let path = if is_name { named.as_path() } else { given };
+        if is_name && !path.is_file() {
+            let known = names_in(&folder);
+            return Err(Error::NoSuchScene {
+                name: name_or_path.to_owned(),
+                hint: did_you_mean(name_or_path, known.iter().map(String::as_str)),
+                folder,
+                known: known.join(", "),
+            });
+        }
+        let text = std::fs::read_to_string(path).map_err(|reason| FileError::Unreadable {
+            kind: KIND,
+            path: path.display().to_string(),
+            reason,
+        })?;
+        let stem = path.file_stem().unwrap_or_default().to_string_lossy();
+        Scene::read(&path.display().to_string(), &stem, &text)
+    }
+
+    /// A scene from the text of a `.ron` file; `name` is its name unless the text gives another.
+    ///
+    /// # Errors
+    /// Text that is no scene. What it says is looked at by [`Scene::over`].
+    pub fn parse(name: &str, text: &str) -> Result<Scene, Error> {
+        Scene::read(name, name, text)
+    }
+
+    fn read(file: &str, name: &str, text: &str) -> Result<Scene, Error> {
+        let mut scene: Scene = file::parse(KIND, file, text)?;
+        if scene.name.is_empty() {
+            scene.name = name.to_owned();
+        }
+        scene.check_tiers()?;
+        Ok(scene)
+    }
+
+    /// What the scene does to a dataset, in a line.
+    pub fn summary(&self) -> String {
+        let mut parts = Vec::new();
+        parts.extend(self.fixed.iter().map(|(name, value)| format!("{name} = {value}")));
+        let range = |(name, [low, high]): &(String, [f64; 2])| format!("{name} in [{low}, {high}]");
+        parts.extend(self.ranges.iter().map(range));
+        parts.extend(self.outputs.iter().map(|(name, text)| format!("{name} = {text}")));
+        parts.extend(self.histograms.iter().map(|histogram| {
+            let bins: Vec<String> = histogram.bins().iter().map(ToString::to_string).collect();
+            format!("weighted by {} ({} bins)", histogram.inputs.join(", "), bins.join("×"))
+        }));
+        parts.extend(self.quantisation.iter().map(Quantisation::summary));
+        parts.join("; ")
+    }
+
+    /// The scene as the text of a `.ron` file.
+    pub fn to_ron(&self) -> String {
+        let mut text = String::new();
+        let pretty = ron::ser::PrettyConfig::default().depth_limit(2);
+        let _ = writeln!(text, "// {}", self.description.replace('\n', " "));
+        let bare = Scene { description: String::new(), ..self.clone() };
+        text += &ron::ser::to_string_pretty(&bare, pretty).expect("plain data");
+        text + "\n"
+    }
+
+    /// The most that a tier may spend, if each says what.
+    pub fn max_cost(&self) -> Option<f64> {
+        let costs: Option<Vec<f64>> = self.tiers.iter().map(|(_, tier)| tier.max_cost).collect();
+        costs?.into_iter().reduce(f64::max)
+    }
+
+    fn check_tiers(&self) -> Result<(), Error> {
+        for (tier, limits) in &self.tiers {
+            let given: Vec<f64> =
+                [limits.max_cost, limits.max_error].into_iter().flatten().collect();
+            let usable = given.iter().all(|limit| limit.is_finite() && *limit >= 0.0);
+            if given.is_empty() || !usable {
+                return Err(Error::Tier { scene: self.name.clone(), tier: tier.clone() });
+            }
+        }
+        Ok(())
+    }
+}
+
+fn names_in(folder: &Path) -> Vec<String> {
+    let files = std::fs::read_dir(folder).into_iter().flatten().flatten();
+    let paths = files.map(|file| file.path());
+    let scenes = paths.filter(|path| path.extension().is_some_and(|extension| extension == "ron"));
+    let mut names: Vec<String> =
+        scenes.filter_map(|path| Some(path.file_stem()?.to_string_lossy().into_owned())).collect();
+    names.sort();
+    names
+}
