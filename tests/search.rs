@@ -5,8 +5,10 @@ use lgp::dataset::{Column, Dataset, Split};
 use lgp::eval::{Evaluator, Samples, Score, Tape};
 use lgp::fit::{Fitter, Stop};
 use lgp::grammar::Grammar;
+use lgp::num::Interval;
 use lgp::program::{Names, Program, Scope, parse, parse_template};
 use lgp::search::{Front, FrontMember, Problem, Requirement, Search, Settings, Transform};
+use lgp::stability::{half_error, points_in};
 
 fn dataset(name: &str, outputs: &[&str]) -> Dataset {
     let path = format!("{}/datasets/{name}.bin", env!("CARGO_MANIFEST_DIR"));
@@ -191,6 +193,25 @@ fn every_formula_is_as_required() {
         member.formula.contains("exp2") && member.formula.contains("roughness") && falls(member)
     }));
     assert!(!free.members.iter().all(falls), "the requirements change nothing");
+}
+
+#[test]
+fn what_is_required_is_refuted_nowhere_in_the_domain() {
+    let data = dataset("dfg", &["scale", "bias"]);
+    let texts = ["finite", "range=0..1", "half=1e-2"];
+    let read = |text: &&str| Requirement::parse(text, &data.names()).unwrap();
+    let requirements = texts.iter().map(read).collect();
+    let settings = Settings { max_cost: 16.0, requirements, ..Settings::default() };
+    let front = search(&data, "shader", 10, settings);
+    assert!(front.members.len() > 3);
+    let points = points_in(&[Interval::new(0.0, 1.0); 2]);
+    for member in &front.members {
+        let range = member.verdict.range.as_ref().unwrap();
+        assert_ne!(range.exact.status, "refuted", "{}", member.formula);
+        assert_eq!(member.verdict.finite.exact.status, "proved", "{}", member.formula);
+        let error = half_error(&member.program, points.iter().map(Vec::as_slice));
+        assert!(error <= 1e-2, "{}: {error}", member.formula);
+    }
 }
 
 #[test]

@@ -2,6 +2,7 @@ use super::run_folder::{self, Which};
 use super::{Common, Exit, Failure, tiers};
 use crate::emit::Language;
 use crate::search::{Front, FrontMember, Run};
+use crate::stability::Questions;
 use serde::Serialize;
 use std::path::PathBuf;
 
@@ -44,7 +45,9 @@ struct Emitted<'a> {
 
 pub fn run(args: &Args, common: &Common) -> Result<(), Failure> {
     let (run, front) = run_folder::load(&args.run, args.which)?;
-    let member = pick(args, &run, &front)?;
+    let mut member = pick(args, &run, &front)?.clone();
+    member.judge(&Questions::of(&run.inputs, &run.outputs), &run.names());
+    let member = &member;
     let code = match args.half {
         false => run_folder::snippet(&run, member, args.lang),
         true => run_folder::half_snippet(&run, member, args.lang).ok_or_else(|| {

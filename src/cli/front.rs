@@ -5,6 +5,7 @@ use crate::cost::Profile;
 use crate::dataset::Dataset;
 use crate::report::table::{Published, front_table};
 use crate::search::{Front, MemberRecord, Run};
+use crate::stability::Questions;
 use std::path::PathBuf;
 
 /// Show the front of a run as a table, published formulas beside it
@@ -20,6 +21,7 @@ pub fn run(args: &Args, common: &Common) -> Result<(), Failure> {
     let (run, mut front) = run_folder::load(&args.run, args.which)?;
     count_registers(&run, &mut front);
     let names = run.names();
+    front.judge(&Questions::of(&run.inputs, &run.outputs), &names);
     let records: Vec<_> = front.members.iter().map(|m| MemberRecord::new(m, &names)).collect();
     let table = front_table(&front, &incumbents(&run).unwrap_or_default(), &names.outputs)
         + &tiers::table(&run, &front);

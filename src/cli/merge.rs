@@ -2,6 +2,7 @@ use super::run_folder::{self, Which};
 use super::{Common, Failure, front};
 use crate::report::table::front_table;
 use crate::search::{Front, MemberRecord, Run, merge};
+use crate::stability::Questions;
 use std::path::{Path, PathBuf};
 
 /// Put runs together: the front that none of their formulas dominates
@@ -20,8 +21,12 @@ pub struct Args {
 }
 
 pub fn run(args: &Args, common: &Common) -> Result<(), Failure> {
-    let (run, union) = united(args, Which { minimax: false })?;
-    let (_, minimax) = united(args, Which { minimax: true })?;
+    let (run, mut union) = united(args, Which { minimax: false })?;
+    let (_, mut minimax) = united(args, Which { minimax: true })?;
+    let questions = Questions::of(&run.inputs, &run.outputs);
+    for front in [&mut union, &mut minimax] {
+        front.judge(&questions, &run.names());
+    }
     check_replaceable(&args.out)?;
     run_folder::create(&args.out)?;
     let incumbents = front::incumbents(&run).unwrap_or_default();

@@ -1,6 +1,7 @@
 //! The command line. One file a subcommand, each with its `Args` and a `run`.
 
 mod analyze;
+mod check;
 mod columns;
 mod cost;
 mod duration;
@@ -52,6 +53,8 @@ To begin:
   lgp eval \"scale = 1 - roughness\" dfg.bin --outputs scale
                                 a formula of your own on the same axes
   lgp cost \"y = exp2(-a*b)\"     what a formula costs on each GPU
+  lgp check runs/dfg            what is proved of each formula over its domain, or
+                                the input that refutes it
   lgp verify dfg.wgsl dfg.bin --max-error 0.01
                                 in your own CI: a shader file against the data
 
@@ -75,6 +78,7 @@ enum Command {
     Emit(emit::Args),
     Eval(eval::Args),
     Cost(cost::Args),
+    Check(check::Args),
     Verify(verify::Args),
     Analyze(analyze::Args),
     Merge(merge::Args),
@@ -95,6 +99,7 @@ impl Command {
             Command::Emit(args) => emit::run(args, common),
             Command::Eval(args) => eval::run(args, common),
             Command::Cost(args) => cost::run(args, common),
+            Command::Check(args) => check::run(args, common),
             Command::Verify(args) => verify::run(args, common),
             Command::Analyze(args) => analyze::run(args, common),
             Command::Merge(args) => merge::run(args, common),

@@ -7,6 +7,7 @@ use crate::eval::OutputError;
 use crate::fit::Measure;
 use crate::report::plot::{self, FrontPlot, PlotError, Theme};
 use crate::report::table::{Published, cycles_text, error_text, front_table};
+use crate::report::verdict::verdict_lines;
 use crate::search::{Census, Front, FrontMember, Run, Search, TracePoint, trace_csv};
 use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
@@ -195,7 +196,7 @@ fn header(run: &Run, member: &FrontMember) -> Vec<String> {
             header.push(format!("       {output}: {}", described(*error)));
         }
     }
-    header.push("finite on every sample of both splits".to_owned());
+    header.extend(verdict_lines(&member.verdict));
     header.push(member.formula.clone());
     header
 }

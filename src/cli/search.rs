@@ -51,8 +51,9 @@ pub struct Args {
     /// or weighted where the dataset has weights]
     #[arg(long, value_name = "MEASURE")]
     loss: Option<Measure>,
-    /// What every formula must be: range=0..1, rising=INPUT, falling=INPUT, ends=INPUT (exact where
-    /// an input's domain ends), uses=OPERATION or INPUT; `bias.range=0..1` is for one output
+    /// What every formula must be: finite, range=0..1, half=1e-2 (its error in f16), rising=INPUT,
+    /// falling=INPUT, ends=INPUT (exact where an input's domain ends), uses=OPERATION or INPUT;
+    /// `bias.range=0..1` is for one output
     #[arg(long, value_name = "CONDITION", value_delimiter = ',')]
     require: Vec<String>,
     /// Search by way of a function of an output, rcp, log2 or sqrt, the error measured on the

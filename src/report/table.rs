@@ -2,6 +2,7 @@
 
 use crate::fit::Measure;
 use crate::search::{Front, FrontMember};
+use crate::stability::ClaimRecord;
 use std::fmt::Write;
 
 /// A published formula, scored as a member would be.
@@ -15,7 +16,8 @@ pub struct Published {
 /// puts them. Errors are over all outputs; those by output follow where there are several.
 pub fn front_table(front: &Front, incumbents: &[Published], outputs: &[String]) -> String {
     let hides = |member: &FrontMember| member.search_error().visible.is_some();
-    let mut text = heading(outputs, front.members.iter().any(hides));
+    let judged = front.members.iter().any(|member| member.verdict.is_judged());
+    let mut text = heading(outputs, front.members.iter().any(hides), judged);
     let mut waiting: Vec<&Published> = incumbents.iter().collect();
     waiting.sort_by(|a, b| a.member.cost.total_cmp(&b.member.cost));
     let mut waiting = waiting.into_iter().peekable();
@@ -23,14 +25,14 @@ pub fn front_table(front: &Front, incumbents: &[Published], outputs: &[String]) 
         while let Some(known) = waiting.next_if(|known| known.member.cost < member.cost) {
             text += &incumbent_row(known, front);
         }
-        let _ = writeln!(text, "{:>4}  {}", i + 1, numbers(member));
+        let _ = writeln!(text, "{:>4}  {}{}", i + 1, numbers(member), statuses(member));
         let _ = writeln!(text, "      {}", member.formula);
     }
     waiting.for_each(|known| text += &incumbent_row(known, front));
     text
 }
 
-fn heading(outputs: &[String], hidden: bool) -> String {
+fn heading(outputs: &[String], hidden: bool, judged: bool) -> String {
     let mut text = format!("{:>4}  {:>6}  {:>8} {:>8}  ", "#", "cycles", "RMSE", "max");
     let _ = write!(text, "{:>8} {:>8}", "val.RMSE", "val.max");
     if outputs.len() > 1 {
@@ -41,7 +43,29 @@ fn heading(outputs: &[String], hidden: bool) -> String {
     if hidden {
         let _ = write!(text, "  {:>8}", "visible");
     }
-    text + "\n"
+    text + if judged { "  verdict\n" } else { "\n" }
+}
+
+/// What is known of a member, in a few words: what is proved first.
+fn statuses(member: &FrontMember) -> String {
+    let verdict = &member.verdict;
+    if !verdict.is_judged() {
+        return String::new();
+    }
+    let topics = [
+        ("finite", Some(&verdict.finite)),
+        ("range", verdict.range.as_ref()),
+        ("energy", verdict.energy.as_ref()),
+    ];
+    let of = |wanted: &str| -> Vec<&str> {
+        let has = |claim: &ClaimRecord| claim.exact.status == wanted;
+        topics.iter().filter(|(_, claim)| claim.is_some_and(has)).map(|(topic, _)| *topic).collect()
+    };
+    let words = ["proved", "open", "refuted"].map(|status| (status, of(status)));
+    let said = words.iter().filter(|(_, topics)| !topics.is_empty());
+    let said: Vec<String> =
+        said.map(|(status, topics)| format!("{} {status}", topics.join(", "))).collect();
+    format!("  {}", said.join("; "))
 }
 
 fn numbers(member: &FrontMember) -> String {

@@ -7,6 +7,7 @@ use crate::dataset::Dataset;
 use crate::eval::{Evaluator, OutputError, Score, joint};
 use crate::fit::Measure;
 use crate::program::{Draft, Names, Program, parse, print};
+use crate::stability::{Questions, Verdict, VerdictRecord};
 use rayon::prelude::*;
 
 /// A formula of the front.
@@ -18,6 +19,8 @@ pub struct FrontMember {
     /// Registers on it; none where a run's record has none.
     pub registers: Option<u32>,
     pub score: Score,
+    /// Not judged where nobody asked.
+    pub verdict: VerdictRecord,
     pub formula: String,
 }
 
@@ -37,7 +40,15 @@ impl FrontMember {
         let program = parse(&formula, names).unwrap_or(program);
         let score = Score::of(&program, dataset, &mut Evaluator::default());
         let Cost { cycles, registers, .. } = profile.cost(&program);
-        FrontMember { program, cost: cycles, registers: Some(registers), score, formula }
+        let verdict = VerdictRecord::default();
+        FrontMember { program, cost: cycles, registers: Some(registers), score, verdict, formula }
+    }
+
+    /// Finds out what can be proved of it, unless that is known.
+    pub fn judge(&mut self, questions: &Questions, names: &Names) {
+        if !self.verdict.is_judged() {
+            self.verdict = VerdictRecord::new(&Verdict::of(&self.program, questions), names);
+        }
     }
 
     /// Whether it costs no more than the other and errs no more, on the search split.
@@ -71,7 +82,7 @@ pub struct Front {
 impl Front {
     /// The archive's members, polished for what the search makes small: constants fitted to
     /// convergence on all of the search split and shortened; then scored, those not finite
-    /// somewhere or dominated dropped.
+    /// somewhere, refuted in what is required of them, or dominated dropped, and the rest judged.
     pub fn of(search: &Search, problem: &Problem) -> Front {
         Front::in_measure(search, problem, problem.measure)
     }
@@ -88,7 +99,14 @@ impl Front {
         }
         let polished: Vec<FrontMember> =
             drafts.par_iter().filter_map(|draft| polish(draft, problem, &names, measure)).collect();
-        Front::from_members(polished, measure)
+        let mut front = Front::from_members(polished, measure);
+        front.judge(&problem.questions(), &names);
+        front
+    }
+
+    /// Judges the members that are not judged.
+    pub fn judge(&mut self, questions: &Questions, names: &Names) {
+        self.members.par_iter_mut().for_each(|member| member.judge(questions, names));
     }
 
     /// Keeps the members that are not dominated.

@@ -174,14 +174,30 @@ impl Island {
             self.counts.hopeless += 1;
             return;
         }
-        let loss = fitter.go_on(candidate, subset, MORE_STEPS) * scale;
+        let mut loss = fitter.go_on(candidate, subset, MORE_STEPS) * scale;
         if loss >= admission {
             self.counts.no_better += 1;
             return;
         }
+        let (mut cost, mut hash) = (cost, hash);
         if !problem.checks.hold(candidate, &mut fitter.evaluator) {
-            self.counts.unfulfilled += 1;
-            return;
+            // Clamped outputs may be the cheapest way to what is required.
+            let clamped = problem.checks.clamped(candidate, problem.grammar);
+            let Some(mut clamped) = clamped.filter(|draft| problem.admits(draft)) else {
+                self.counts.unfulfilled += 1;
+                return;
+            };
+            cost = problem.cost(&clamped, scratch);
+            hash = structural_hash(&clamped, Constants::Ignored, hashes);
+            loss = fitter.fit(&mut clamped, subset, MORE_STEPS) * scale;
+            let wanted = cost <= self.population.max_cost
+                && clamped.instrs.len() <= problem.grammar.max_instructions
+                && loss < self.population.admission(&clamped, cost);
+            if !wanted || !problem.checks.hold(&clamped, &mut fitter.evaluator) {
+                self.counts.unfulfilled += 1;
+                return;
+            }
+            *candidate = clamped;
         }
         self.counts.admitted += 1;
         let newcomer = Individual { draft: candidate.clone(), cost, loss, hash };

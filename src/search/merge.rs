@@ -96,6 +96,7 @@ mod tests {
     use crate::program::{Names, parse};
     use crate::scene::Scene;
     use crate::search::{Counts, FrontMember, Requirement, Settings};
+    use crate::stability::VerdictRecord;
 
     fn run(seed: u64, members: &[(f64, f64, &str)]) -> (Run, Front) {
         let column = |name: &str| crate::dataset::Column {
@@ -131,6 +132,7 @@ mod tests {
                 cost,
                 registers: None,
                 score: Score { search: errors.clone(), validation: errors },
+                verdict: VerdictRecord::default(),
                 formula: formula.into(),
             }
         };

@@ -39,17 +39,31 @@ pub(super) fn polish(
     } else {
         shorten(&mut fitter, &mut draft, &problem.all, SHORTENING_ALLOWANCE);
     }
+    finished(&draft, problem, names, measure).or_else(|| {
+        // What leaves its range is brought into it, if that is all that is wrong.
+        let clamped = problem.checks.clamped(&draft, problem.grammar)?;
+        finished(&clamped, problem, names, measure)
+    })
+}
+
+/// The formula without what is superfluous, or as it is where rounding makes the simpler one worse;
+/// nothing where neither is as required.
+fn finished(
+    draft: &Draft,
+    problem: &Problem,
+    names: &Names,
+    measure: Measure,
+) -> Option<FrontMember> {
     let mut simple = Draft::default();
-    Simplifier::default().simplify(&draft, &mut simple);
-    let finished = [draft, simple].into_iter().filter_map(|draft| {
+    Simplifier::default().simplify(draft, &mut simple);
+    let finished = [draft.clone(), simple].into_iter().filter_map(|draft| {
         let active = without_idle(Program::verify(draft).ok()?, &problem.dataset.inputs);
         let program = effective(&tidy(&active));
         Some(FrontMember::new(program, problem.dataset, problem.profile, names))
     });
-    // The simpler form, unless rounding has made it worse.
     let error = |member: &FrontMember| (member.cost, member.search_error().of(measure) * WORSE);
     let shown =
-        finished.filter(|member| member.score.is_finite() && problem.accepts(&member.program));
+        finished.filter(|member| member.score.is_finite() && problem.shows(&member.program));
     shown.reduce(|plain, simple| {
         let ((cost, error), simple_error) = (error(&plain), simple.search_error().of(measure));
         if simple.cost <= cost && simple_error <= error { simple } else { plain }

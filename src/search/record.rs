@@ -7,6 +7,7 @@ use crate::eval::{OutputError, Score};
 use crate::fit::Measure;
 use crate::program::{Names, parse};
 use crate::scene::Scene;
+use crate::stability::VerdictRecord;
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
@@ -73,21 +74,9 @@ pub struct MemberRecord {
     pub errors: BTreeMap<String, OutputError>,
     /// By output, on the validation split.
     pub validation_errors: BTreeMap<String, OutputError>,
-    pub verdict: Verdict,
+    #[serde(default)]
+    pub verdict: VerdictRecord,
     pub formula: String,
-}
-
-/// What is known of a formula's behaviour.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub struct Verdict {
-    pub finite: Status,
-}
-
-/// How well it is known.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub struct Status {
-    /// `sampled`: it holds on every sample of both splits.
-    pub status: String,
 }
 
 impl MemberRecord {
@@ -103,7 +92,7 @@ impl MemberRecord {
             validation: member.validation_error(),
             errors: by_output(&member.score.search),
             validation_errors: by_output(&member.score.validation),
-            verdict: Verdict { finite: Status { status: "sampled".to_owned() } },
+            verdict: member.verdict.clone(),
             formula: member.formula.clone(),
         }
     }
@@ -122,6 +111,7 @@ impl MemberRecord {
             cost: self.cost,
             registers: self.registers,
             score,
+            verdict: self.verdict,
             formula: self.formula,
         })
     }

@@ -1,15 +1,20 @@
-//! What every formula of a search must be, whatever its error.
+//! What every formula of a search must be, whatever its error: checked on samples while it goes on,
+//! and over the whole domain before a formula is shown.
 
 use super::Problem;
 use crate::dataset::{Dataset, Split};
 use crate::eval::{Evaluator, Samples, Tape, Values};
+use crate::grammar::Grammar;
 use crate::op::Op;
 use crate::program::{Arg, Draft, Names, Program};
+use crate::stability::{
+    Bound, Claim, Limits, Questions, Rounding, Status, half_error, points_in, prove,
+};
 use crate::suggest::did_you_mean;
 use serde::{Deserialize, Serialize};
 
-/// A condition on formulas. Those on values are checked on samples: what holds there may fail between
-/// them.
+/// A condition on formulas. Those on values are checked on samples; of `Finite` and `Range` it is also
+/// tried to refute them anywhere in the domain before a formula is shown.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub enum Requirement {
     /// No output, or not this one, leaves the range.
@@ -23,6 +28,10 @@ pub enum Requirement {
     Operation(Op),
     /// The formula reads this input.
     Input(u16),
+    /// No output is infinite or NaN anywhere in the domain.
+    Finite,
+    /// In half precision no output is off by more, absolute.
+    Half { error: f64 },
 }
 
 /// How far a value may be off where it must be exact.
@@ -37,13 +46,16 @@ const STEPS: f64 = 64.0;
 const ROUNDING: f32 = 1e-6;
 
 impl Requirement {
-    /// Reads `range=0..1`, `rising=INPUT`, `falling=INPUT`, `ends=INPUT`, `uses=OPERATION` or
-    /// `uses=INPUT`; an output's name and a dot before it make it that output's alone.
+    /// Reads `finite`, `range=0..1`, `half=1e-2`, `rising=INPUT`, `falling=INPUT`, `ends=INPUT`,
+    /// `uses=OPERATION` or `uses=INPUT`; an output's name and a dot before it make it that output's alone.
     ///
     /// # Errors
     /// What is wrong with the text, and what may stand there.
     pub fn parse(text: &str, names: &Names) -> Result<Requirement, String> {
-        let wanted = "give range=LOW..HIGH, rising=INPUT, falling=INPUT, ends=INPUT or uses=NAME, an output's name and a dot before it if it is for one output";
+        let wanted = "give finite, range=LOW..HIGH, half=ERROR, rising=INPUT, falling=INPUT, ends=INPUT or uses=NAME, an output's name and a dot before it if it is for one output";
+        if text == "finite" {
+            return Ok(Requirement::Finite);
+        }
         let (key, value) = text.split_once('=').ok_or_else(|| format!("`{text}`: {wanted}"))?;
         let (output, key) = match key.split_once('.') {
             Some((output, key)) => (Some(place(output, &names.outputs, "output")?), key),
@@ -61,6 +73,12 @@ impl Requirement {
             }
             "rising" | "falling" => {
                 Ok(Requirement::Monotone { output, input: input()?, rising: key == "rising" })
+            }
+            "half" if output.is_none() => {
+                let error = value.parse().ok().filter(|error: &f64| *error > 0.0);
+                let error = error
+                    .ok_or_else(|| format!("`{text}`: an error is a number above 0, as 1e-2"))?;
+                Ok(Requirement::Half { error })
             }
             "ends" => Ok(Requirement::Ends { output, input: input()? }),
             "uses" => match Op::from_name(value) {
@@ -92,6 +110,8 @@ impl Requirement {
             }
             Requirement::Operation(op) => format!("uses={}", op.name()),
             Requirement::Input(read) => format!("uses={}", input(read)),
+            Requirement::Finite => "finite".to_owned(),
+            Requirement::Half { error } => format!("half={error}"),
         }
     }
 }
@@ -109,12 +129,18 @@ pub(super) struct Checks {
     requirements: Vec<Requirement>,
     /// For each requirement: its samples, and where outputs are compared, those a step further.
     samples: Vec<Vec<Samples>>,
+    /// Inputs at which half precision is tried.
+    few_points: Vec<Vec<f32>>,
 }
 
 impl Checks {
     pub fn new(requirements: &[Requirement], dataset: &Dataset) -> Checks {
         let samples = requirements.iter().map(|requirement| samples_for(requirement, dataset));
-        Checks { samples: samples.collect(), requirements: requirements.to_vec() }
+        let rows = dataset.search.rows();
+        let inputs = &dataset.search.columns[..dataset.inputs.len()];
+        let point = |row| inputs.iter().map(|column| column[row]).collect();
+        let few_points = (0..rows).step_by(rows.div_ceil(FEW_ROWS).max(1)).map(point).collect();
+        Checks { samples: samples.collect(), requirements: requirements.to_vec(), few_points }
     }
 
     /// Whether a formula is built as required; its values are not looked at.
@@ -131,7 +157,8 @@ impl Checks {
 
     /// Whether a formula's values are as required on the samples.
     pub fn hold(&self, draft: &Draft, evaluator: &mut Evaluator) -> bool {
-        if self.samples.iter().all(Vec::is_empty) {
+        let of_halves = |one: &Requirement| matches!(one, Requirement::Half { .. });
+        if self.samples.iter().all(Vec::is_empty) && !self.requirements.iter().any(of_halves) {
             return true;
         }
         let Ok(program) = Program::verify(draft.clone()) else { return false };
@@ -165,17 +192,103 @@ impl Checks {
                     let exact = |(f, y): (&f32, &f32)| (f - y).abs() <= EXACT;
                     holds(output, &|o| values.column(o).iter().zip(samples.targets(o)).all(exact))
                 }
+                (&Requirement::Finite, [samples]) => {
+                    let values = values(samples);
+                    holds(None, &|o| values.column(o).iter().all(|value| value.is_finite()))
+                }
+                (&Requirement::Half { error }, _) => {
+                    let points = self.few_points.iter().map(Vec::as_slice);
+                    half_error(&program, points) <= error
+                }
                 _ => true,
             }
         })
     }
+
+    /// What is asked of formulas over the whole domain.
+    pub fn questions(&self, dataset: &Dataset) -> Questions {
+        let mut questions = Questions::of(&dataset.inputs, &dataset.outputs);
+        for requirement in &self.requirements {
+            let &Requirement::Range { output, low, high } = requirement else { continue };
+            for (o, range) in questions.ranges.iter_mut().enumerate() {
+                if output.is_none_or(|output| usize::from(output) == o) {
+                    *range = [low.into(), high.into()];
+                }
+            }
+        }
+        questions
+    }
+
+    /// Whether nothing required is refuted anywhere in the domain.
+    fn stand(&self, program: &Program, dataset: &Dataset) -> bool {
+        let domain = Questions::of(&dataset.inputs, &[]).domain;
+        let mut claims = Vec::new();
+        for requirement in &self.requirements {
+            let each = (0..program.outputs.len()).filter(|&o| match requirement {
+                Requirement::Range { output, .. } => output.is_none_or(|one| usize::from(one) == o),
+                _ => true,
+            });
+            match *requirement {
+                Requirement::Finite => claims.extend(each.map(|o| Claim::of(o, Bound::Finite))),
+                Requirement::Range { low, high, .. } => claims.extend(each.flat_map(|o| {
+                    let bounds = [Bound::AtLeast(low.into()), Bound::AtMost(high.into())];
+                    bounds.map(|bound| Claim::of(o, bound))
+                })),
+                Requirement::Half { error } => {
+                    let points = points_in(&domain);
+                    if half_error(program, points.iter().map(Vec::as_slice)) > error {
+                        return false;
+                    }
+                }
+                _ => {}
+            }
+        }
+        let limits = Limits { boxes: BOXES, ..Limits::new(Rounding::Exact) };
+        let refuted = |status: &Status| matches!(status, Status::Refuted { .. });
+        !claims.chunks(64).any(|some| prove(program, &domain, some, &limits).iter().any(refuted))
+    }
+
+    /// The formula, each output that must stay in a range brought into it; nothing where none must, or
+    /// the grammar lacks the operation.
+    pub fn clamped(&self, draft: &Draft, grammar: &Grammar) -> Option<Draft> {
+        let has = |wanted: Op| grammar.operations.iter().any(|(op, _)| *op == wanted);
+        let mut clamped = draft.clone();
+        for requirement in &self.requirements {
+            let &Requirement::Range { output, low, high } = requirement else { continue };
+            for o in
+                (0..draft.outputs.len()).filter(|&o| output.is_none_or(|one| usize::from(one) == o))
+            {
+                let mut value = clamped.outputs[o];
+                if (low, high) == (0.0, 1.0) && has(Op::Saturate) {
+                    value = clamped.push(Op::Saturate, &[value]);
+                } else if has(Op::Min) && has(Op::Max) {
+                    for (op, bound) in [(Op::Max, low), (Op::Min, high)] {
+                        if bound.is_finite() {
+                            let bound = clamped.constant(bound);
+                            value = clamped.push(op, &[value, bound]);
+                        }
+                    }
+                } else {
+                    return None;
+                }
+                clamped.outputs[o] = value;
+            }
+        }
+        (clamped.instrs.len() > draft.instrs.len()).then_some(clamped)
+    }
 }
+
+/// Boxes spent on a formula before it counts as not refuted.
+const BOXES: usize = 2000;
+
+/// Rows on which half precision is tried while a search goes on.
+const FEW_ROWS: usize = 256;
 
 fn samples_for(requirement: &Requirement, dataset: &Dataset) -> Vec<Samples> {
     let inputs = dataset.inputs.len();
     let whole = both_splits(dataset);
     match *requirement {
-        Requirement::Range { .. } => vec![Samples::new(&whole, inputs)],
+        Requirement::Range { .. } | Requirement::Finite => vec![Samples::new(&whole, inputs)],
         Requirement::Monotone { input, .. } => {
             let [low, high] = dataset.inputs[usize::from(input)].domain;
             let step = ((high - low) / STEPS) as f32;
@@ -243,8 +356,18 @@ impl Problem<'_> {
             && self.transforms().all(|(output, transform)| transform.is_undone(draft, output))
     }
 
-    /// Whether a formula that is to be shown is as required.
+    /// Whether a formula is as required, as far as samples show it.
     pub(super) fn accepts(&self, draft: &Draft) -> bool {
         self.admits(draft) && self.checks.hold(draft, &mut Evaluator::default())
+    }
+
+    /// Whether a formula that is to be shown is as required, wherever its inputs are in the domain.
+    pub(super) fn shows(&self, program: &Program) -> bool {
+        self.accepts(program) && self.checks.stand(program, self.dataset)
+    }
+
+    /// What is asked of each formula that is shown.
+    pub fn questions(&self) -> Questions {
+        self.checks.questions(self.dataset)
     }
 }

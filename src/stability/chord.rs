@@ -16,7 +16,7 @@ struct Curve<'a> {
 }
 
 /// `f(x)` for x of the form within the bounds; nothing where no line is known that comes near.
-pub(super) fn image(op: Op, x: Form, bounds: Interval) -> Option<Form> {
+pub(super) fn image(op: Op, x: &Form, bounds: Interval) -> Option<Form> {
     let (low, high) = (f64::from(bounds.low()), f64::from(bounds.high()));
     match op {
         Op::Rcp if low > 0.0 || high < 0.0 => {
@@ -78,7 +78,7 @@ pub(super) fn image(op: Op, x: Form, bounds: Interval) -> Option<Form> {
 }
 
 /// `x²`.
-pub(super) fn square(x: Form, bounds: Interval) -> Form {
+pub(super) fn square(x: &Form, bounds: Interval) -> Form {
     let (low, high) = (f64::from(bounds.low()), f64::from(bounds.high()));
     let middle = low / 2.0 + high / 2.0;
     let magnitude = low.abs().max(high.abs()).powi(2);
@@ -86,10 +86,10 @@ pub(super) fn square(x: Form, bounds: Interval) -> Form {
 }
 
 /// `|x|`.
-pub(super) fn absolute(x: Form, bounds: Interval) -> Form {
+pub(super) fn absolute(x: &Form, bounds: Interval) -> Form {
     let (low, high) = (f64::from(bounds.low()), f64::from(bounds.high()));
     if low >= 0.0 {
-        return x;
+        return *x;
     }
     if high <= 0.0 {
         return x.negated();
@@ -99,22 +99,22 @@ pub(super) fn absolute(x: Form, bounds: Interval) -> Form {
 }
 
 /// The larger, given bounds of a − b.
-pub(super) fn maximum(a: Form, b: Form, difference: Interval) -> Form {
+pub(super) fn maximum(a: &Form, b: &Form, difference: Interval) -> Form {
     let (low, high) = (f64::from(difference.low()), f64::from(difference.high()));
     if low >= 0.0 {
-        return a;
+        return *a;
     }
     if high <= 0.0 {
-        return b;
+        return *b;
     }
     // b + max(a − b, 0), whose chord is above it, most at the kink.
     let chord = high / (high - low);
-    a.mapped(chord, 0.0, -chord * low, high - low).plus(b.mapped(1.0 - chord, 0.0, 0.0, 0.0))
+    a.mapped(chord, 0.0, -chord * low, high - low).plus(&b.mapped(1.0 - chord, 0.0, 0.0, 0.0))
 }
 
 impl Curve<'_> {
     /// The line of least error: parallel to the chord, halfway to the tangent.
-    fn image(&self, x: Form, low: f64, high: f64) -> Option<Form> {
+    fn image(&self, x: &Form, low: f64, high: f64) -> Option<Form> {
         let (first, last) = ((self.value)(low), (self.value)(high));
         let chord = match high - low {
             width if width > 1e-30 => (last - first) / width,
@@ -146,7 +146,7 @@ impl Curve<'_> {
 }
 
 /// The line through the middle whose slope is the middle of the derivative's bounds.
-fn by_derivative(op: Op, x: Form, bounds: Interval) -> Option<Form> {
+fn by_derivative(op: Op, x: &Form, bounds: Interval) -> Option<Form> {
     let of = |op: Op, x: Interval| Bounds.apply(op, [x; 4]);
     let one = Interval::new(1.0, 1.0);
     let square = |x: Interval| of(Op::Abs, x).times(of(Op::Abs, x));

@@ -42,15 +42,12 @@ impl Enclosure {
             let bounds = self.stored(bounds);
             self.inputs.push(Enclosed { bounds, form: Form::input(i, bounds) });
         }
-        for instr in &program.instrs {
+        for (i, instr) in program.instrs.iter().enumerate() {
             let args = instr.args();
-            let first = self.value(program, args[0]);
-            let mut arguments = [first; MAX_ARITY];
-            for (to, &arg) in arguments.iter_mut().zip(args) {
-                *to = self.value(program, arg);
-            }
+            let values = [0, 1, 2, 3].map(|k| self.value(program, args[k.min(args.len() - 1)]));
             let square = args.len() > 1 && args[0] == args[1];
-            let result = apply(self.rounding, instr.op(), arguments, square);
+            let mut result = apply(self.rounding, instr.op(), values.each_ref(), square);
+            result.form = result.form.map(|form| form.of_instruction(i));
             self.results.push(result);
         }
     }
@@ -91,46 +88,49 @@ impl Enclosure {
 
 impl Enclosed {
     /// What both bounds and form allow.
-    fn new(bounds: Interval, form: Option<Form>) -> Enclosed {
+    fn new(rounding: Rounding, bounds: Interval, form: Option<Form>) -> Enclosed {
         let bounds = form.map_or(bounds, |form| bounds.narrowed(form.bounds()));
-        // Where the form knows less, what it says of inputs is worth little.
+        // Where the form knows less, what it says of others is worth little.
         let plain = Form::around(bounds);
         let form = match (form, plain) {
             (Some(form), Some(plain)) if plain.radius() > form.radius() / 2.0 => Some(form),
-            _ => plain,
+            (Some(form), Some(plain)) => Some(plain.in_place_of(&form)),
+            // Of a jump, two readers may see different sides.
+            (None, Some(plain)) if rounding == Rounding::Gpu => Some(plain.unshared()),
+            (_, plain) => plain,
         };
         Enclosed { bounds, form }
     }
 }
 
 /// What an operation gives; `square` where its first two arguments are one.
-fn apply(rounding: Rounding, op: Op, arguments: [Enclosed; MAX_ARITY], square: bool) -> Enclosed {
+fn apply(rounding: Rounding, op: Op, arguments: [&Enclosed; MAX_ARITY], square: bool) -> Enclosed {
     let [a, b, c, d] = arguments;
-    let step = |op: Op, arguments: &[Enclosed]| {
+    let step = |op: Op, arguments: &[&Enclosed]| {
         let mut all = [arguments[0]; MAX_ARITY];
         all[..arguments.len()].copy_from_slice(arguments);
         apply(rounding, op, all, false)
     };
     match op {
-        Op::Pow => step(Op::Exp2, &[step(Op::Mul, &[b, step(Op::Log2, &[a])])]),
+        Op::Pow => step(Op::Exp2, &[&step(Op::Mul, &[b, &step(Op::Log2, &[a])])]),
         Op::Mad if rounding == Rounding::Gpu => {
-            step(Op::Add, &[apply(rounding, Op::Mul, arguments, square), c])
+            step(Op::Add, &[&apply(rounding, Op::Mul, arguments, square), c])
         }
         Op::Tan if rounding == Rounding::Gpu => {
-            step(Op::Div, &[step(Op::Sin, &[a]), step(Op::Cos, &[a])])
+            step(Op::Div, &[&step(Op::Sin, &[a]), &step(Op::Cos, &[a])])
         }
         Op::Lerp => {
-            let fused = step(Op::Mad, &[c, step(Op::Sub, &[b, a]), a]);
+            let fused = step(Op::Mad, &[c, &step(Op::Sub, &[b, a]), a]);
             if rounding == Rounding::Exact {
                 return fused;
             }
             let one = Interval::new(1.0, 1.0);
             let one = Enclosed { bounds: one, form: Form::around(one) };
-            let rest = step(Op::Sub, &[one, c]);
-            let sum = step(Op::Add, &[step(Op::Mul, &[a, rest]), step(Op::Mul, &[b, c])]);
-            hull(fused, sum)
+            let rest = step(Op::Sub, &[&one, c]);
+            let sum = step(Op::Add, &[&step(Op::Mul, &[a, &rest]), &step(Op::Mul, &[b, c])]);
+            hull(rounding, &fused, &sum)
         }
-        Op::Select => select([a, b], c, d),
+        Op::Select => select(rounding, [a, b], c, d),
         _ => {
             let bounds = bounds(rounding, op, arguments, square);
             let form = form(op, arguments, square).map(|form| {
@@ -139,7 +139,8 @@ fn apply(rounding: Rounding, op: Op, arguments: [Enclosed; MAX_ARITY], square: b
                 // The value before rounding may reach a little further.
                 form.widened(error.of(reach + error.of(reach)))
             });
-            Enclosed::new(bounds, form.filter(|_| describes(rounding, op, a.bounds, b.bounds)))
+            let form = form.filter(|_| describes(rounding, op, a.bounds, b.bounds));
+            Enclosed::new(rounding, bounds, form)
         }
     }
 }
@@ -158,7 +159,7 @@ fn describes(rounding: Rounding, op: Op, a: Interval, b: Interval) -> bool {
     }
 }
 
-fn bounds(rounding: Rounding, op: Op, arguments: [Enclosed; MAX_ARITY], square: bool) -> Interval {
+fn bounds(rounding: Rounding, op: Op, arguments: [&Enclosed; MAX_ARITY], square: bool) -> Interval {
     let [a, b, c, d] = arguments.map(|argument| argument.bounds);
     // Of two equal signs, a product is that of the absolute values.
     let (a, b) = match op {
@@ -169,33 +170,33 @@ fn bounds(rounding: Rounding, op: Op, arguments: [Enclosed; MAX_ARITY], square: 
 }
 
 /// The operation without its rounding, as an affine form.
-fn form(op: Op, arguments: [Enclosed; MAX_ARITY], square: bool) -> Option<Form> {
+fn form(op: Op, arguments: [&Enclosed; MAX_ARITY], square: bool) -> Option<Form> {
     let x = arguments[0].bounds;
-    let [a, b, c, _] = arguments.map(|argument| argument.form);
+    let [a, b, c, _] = arguments.map(|argument| argument.form.as_ref());
     let product = || match square {
         true => Some(chord::square(a?, x)),
         false => Some(a?.times(b?)),
     };
-    let larger = |a: Form, b: Form| chord::maximum(a, b, a.minus(b).bounds());
-    let smaller = |a: Form, b: Form| larger(a.negated(), b.negated()).negated();
+    let larger = |a: &Form, b: &Form| chord::maximum(a, b, a.minus(b).bounds());
+    let smaller = |a: &Form, b: &Form| larger(&a.negated(), &b.negated()).negated();
     match op {
         Op::Add => Some(a?.plus(b?)),
         Op::Sub => Some(a?.minus(b?)),
         Op::Neg => Some(a?.negated()),
         Op::Mul => product(),
         Op::Mad => Some(product()?.plus(c?)),
-        Op::Div => Some(a?.times(chord::image(Op::Rcp, b?, arguments[1].bounds)?)),
+        Op::Div => Some(a?.times(&chord::image(Op::Rcp, b?, arguments[1].bounds)?)),
         Op::Rsqrt => {
             let root = chord::image(Op::Sqrt, a?, x)?;
             let bounds = Bounds.apply(Op::Sqrt, [x; MAX_ARITY]).widened(1);
-            chord::image(Op::Rcp, root, bounds)
+            chord::image(Op::Rcp, &root, bounds)
         }
         Op::Abs => Some(chord::absolute(a?, x)),
         Op::Max => Some(larger(a?, b?)),
         Op::Min => Some(smaller(a?, b?)),
         Op::Saturate => {
             let [zero, one] = [0.0, 1.0].map(|x| Form::around(Interval::new(x, x)));
-            Some(smaller(larger(a?, zero?), one?))
+            Some(smaller(&larger(a?, zero.as_ref()?), one.as_ref()?))
         }
         Op::Floor | Op::Fract if x.low().floor() == x.high().floor() => {
             let whole = f64::from(x.low().floor());
@@ -209,9 +210,9 @@ fn form(op: Op, arguments: [Enclosed; MAX_ARITY], square: bool) -> Option<Form> 
 }
 
 /// `yes` where a < b, else `no`.
-fn select([a, b]: [Enclosed; 2], yes: Enclosed, no: Enclosed) -> Enclosed {
+fn select(rounding: Rounding, [a, b]: [&Enclosed; 2], yes: &Enclosed, no: &Enclosed) -> Enclosed {
     let nan = a.bounds.may_be_nan() || b.bounds.may_be_nan();
-    let difference = match (a.form, b.form) {
+    let difference = match (&a.form, &b.form) {
         (Some(a), Some(b)) => a.minus(b).bounds(),
         _ => Interval::LINE,
     };
@@ -219,16 +220,17 @@ fn select([a, b]: [Enclosed; 2], yes: Enclosed, no: Enclosed) -> Enclosed {
     let may_hold = numbers && a.bounds.low() < b.bounds.high() && difference.low() < 0.0;
     let may_fail = nan || a.bounds.high() >= b.bounds.low() && difference.high() >= 0.0;
     match (may_hold, may_fail) {
-        (true, false) => yes,
-        (false, _) => no,
-        (true, true) => hull(yes, no),
+        (true, false) => *yes,
+        (false, _) => *no,
+        (true, true) => hull(rounding, yes, no),
     }
 }
 
-fn hull(a: Enclosed, b: Enclosed) -> Enclosed {
-    let form = match (a.form, b.form) {
-        (Some(first), Some(second)) => Some(first.hull(second)),
+fn hull(rounding: Rounding, a: &Enclosed, b: &Enclosed) -> Enclosed {
+    let form = match (&a.form, &b.form) {
+        // Of a jump, two readers may see different sides.
+        (Some(first), Some(second)) => Some(first.hull(second).unshared()),
         _ => None,
     };
-    Enclosed::new(a.bounds.hull(b.bounds), form)
+    Enclosed::new(rounding, a.bounds.hull(b.bounds), form)
 }

@@ -22,13 +22,33 @@
 //! # Ok::<(), lgp::program::ParseError>(())
 //! ```
 
+mod blame;
 mod chord;
 mod counterexample;
 mod enclosure;
+mod examination;
+mod extremes;
 mod form;
+mod half;
+mod points;
+mod precision;
 mod prove;
+mod record;
 mod rounding;
+mod smoothness;
+mod variants;
+mod verdict;
 
+pub use blame::{Blame, Cause};
 pub use enclosure::Enclosure;
+pub use examination::Examination;
+pub use extremes::{At, Extent, Place, extremes};
+pub use half::{half_error, must_stay_single};
+pub use points::points_in;
+pub use precision::{Loss, Precision};
 pub use prove::{Bound, Claim, Limits, Status, prove};
+pub use record::{ClaimRecord, StatusRecord, Value, VerdictRecord};
 pub use rounding::Rounding;
+pub use smoothness::{Break, Smoothness, Trend};
+pub use variants::{Liberty, Spread, spreads};
+pub use verdict::{Finding, Questions, Topic, Verdict};

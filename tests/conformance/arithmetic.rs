@@ -60,6 +60,28 @@ fn half_precision_rounds_every_operation_once() {
 }
 
 #[test]
+fn half_precision_is_that_of_the_half_crate() {
+    type InHalves = fn(f16, f16) -> f16;
+    let operations: [(Op, InHalves); 6] = [
+        (Op::Add, |a, b| a + b),
+        (Op::Sub, |a, b| a - b),
+        (Op::Mul, |a, b| a * b),
+        (Op::Div, |a, b| a / b),
+        (Op::Neg, |a, _| -a),
+        (Op::Rcp, |a, _| f16::ONE / a),
+    ];
+    let mut rng = ChaCha8Rng::seed_from_u64(7);
+    for _ in 0..400_000 {
+        let [a, b] = [0; 2].map(|_| f16::from_bits(rng.random()));
+        for (op, in_halves) in operations {
+            let (found, expected) = (Half::default().apply(op, [a, b, a, b]), in_halves(a, b));
+            let same = found.to_bits() == expected.to_bits() || found.is_nan() && expected.is_nan();
+            assert!(same, "{op} {a} {b}: {found}, not {expected}");
+        }
+    }
+}
+
+#[test]
 fn half_precision_overflows_and_flushes_as_halves_do() {
     let (keep, flush) = (Half::default(), Half { flush_to_zero: true });
     let two =

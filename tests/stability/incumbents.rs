@@ -56,3 +56,23 @@ fn unreals_energy_is_nan_at_the_corner() {
         assert!(value.is_nan());
     }
 }
+
+#[test]
+fn what_is_right_is_proved() {
+    let proved = [
+        ("blender_workbench", "scale", Bound::AtLeast(0.0)),
+        ("blender_workbench", "bias", Bound::AtMost(1.0)),
+        ("blender_workbench", "scale + bias", Bound::AtMost(1.0)),
+        ("narkowicz_2014_exp", "bias", Bound::AtMost(1.0)),
+        ("karis_2014", "bias", Bound::Finite),
+        ("materialx_rational", "scale", Bound::Finite),
+        ("materialx_rational", "scale", Bound::AtMost(1.0)),
+        ("rtg_ch32", "bias", Bound::Finite),
+    ];
+    for (name, expression, bound) in proved {
+        for rounding in [Rounding::Exact, Rounding::Gpu] {
+            let status = claim(name, expression, bound, rounding);
+            assert_eq!(status, Status::Proved, "{name}: {expression} {bound:?} {rounding:?}");
+        }
+    }
+}

@@ -1,0 +1,299 @@
+use super::eval::assigned_outputs;
+use super::run_folder::{self, Which};
+use super::{Common, Exit, Failure};
+use crate::dataset::{Column, Dataset};
+use crate::program::{Names, Parsed, Program, parse_open};
+use crate::report::examination;
+use crate::report::table::cycles_text;
+use crate::report::verdict::claim_text;
+use crate::search::FrontMember;
+use crate::stability::{Examination, Questions, Status, Topic, Verdict, VerdictRecord};
+use crate::suggest::did_you_mean;
+use rayon::prelude::*;
+use serde_json::json;
+use std::fmt::Write;
+use std::path::{Path, PathBuf};
+
+/// Prove formulas finite and in range over their whole domain, or refute them
+///
+/// Each claim is proved, refuted with an input that does it, or left open, for f32 as the interpreter
+/// computes and for any GPU within WGSL's and Vulkan's stated precision. Of one formula it also shows
+/// what happens at the edges and just outside, what f32 and f16 lose, where, and in which operation,
+/// what compilers may change, and where it bends or jumps. Exit code 4 where a claim is refuted that
+/// was asked for: finite always, ranges with --range, energy with --energy.
+#[derive(clap::Args)]
+pub struct Args {
+    /// Statements `name = expression`, separated by `;`, or a folder that `lgp search` wrote
+    #[arg(value_name = "FORMULA|DIR")]
+    formula: String,
+    /// The dataset that a formula is for: its columns and their domains
+    dataset: Option<PathBuf>,
+    /// In place of a dataset: what each input can be, as x=0..1; other names are outputs
+    #[arg(long, value_name = "INPUT=LOW..HIGH", value_delimiter = ',', conflicts_with = "dataset")]
+    domain: Vec<String>,
+    /// What outputs must not leave, as 0..1, or bias=0..1 for one of them [default: 0..1 or 0 and
+    /// above where the data is so]
+    #[arg(long, value_name = "LOW..HIGH", value_delimiter = ',')]
+    range: Vec<String>,
+    /// That f0*scale + bias is at most 1 for all f0 in [0, 1] [default: where outputs are called so]
+    #[arg(long)]
+    energy: bool,
+    /// By how much a value may leave its range
+    #[arg(long, value_name = "S", default_value_t = 1e-5)]
+    slack: f64,
+    /// The absolute error up to which half precision is good enough
+    #[arg(long, value_name = "E", default_value_t = 1e-2)]
+    half: f64,
+    /// Of a folder all of one member: its number in the table
+    #[arg(long, value_name = "N")]
+    pick: Option<usize>,
+    #[command(flatten)]
+    which: Which,
+}
+
+pub fn run(args: &Args, common: &Common) -> Result<(), Failure> {
+    if !(args.slack >= 0.0 && args.half > 0.0) {
+        return Err(Failure::usage("--slack is 0 or more, --half more than 0"));
+    }
+    let path = Path::new(&args.formula);
+    if path.is_dir() || !args.formula.contains('=') {
+        return check_front(args, path, common);
+    }
+    let (program, names, questions) = match &args.dataset {
+        Some(dataset) => of_dataset(args, dataset)?,
+        None => of_domain(args)?,
+    };
+    check_one(args, &program, &names, &questions, common)
+}
+
+fn of_dataset(args: &Args, path: &Path) -> Result<(Program, Names, Questions), Failure> {
+    let dataset = Dataset::load(path)?;
+    let Parsed { program, names, free } = assigned_outputs(&args.formula, &dataset.names())?;
+    if let Some(constant) = free.first() {
+        let message = format!("`${}` is a free constant; give it a value", constant.name);
+        return Err(Failure::new(Exit::Input, anyhow::Error::msg(message)));
+    }
+    let dataset = dataset.select(Some(&names.inputs), Some(&names.outputs))?;
+    let questions = questions(args, &dataset.inputs, &dataset.outputs)?;
+    Ok((program, names, questions))
+}
+
+fn of_domain(args: &Args) -> Result<(Program, Names, Questions), Failure> {
+    let Parsed { program, names, .. } = parse_open(&args.formula, &[])?;
+    let column = |name: &String, domain| Column { name: name.clone(), unit: "1".into(), domain };
+    let mut inputs = Vec::new();
+    for name in &names.inputs {
+        let given = args.domain.iter().find_map(|text| {
+            text.split_once('=').filter(|(input, _)| input == name).map(|(_, range)| range)
+        });
+        let given = given.ok_or_else(|| {
+            let message = format!(
+                "`{name}` can be anything; give a dataset that has it, or --domain {name}=0..1"
+            );
+            Failure::usage(message)
+        })?;
+        let [low, high] = range(given)?;
+        if !(low.is_finite() && high.is_finite()) {
+            return Err(Failure::usage(format!("--domain {name}: both ends must be finite")));
+        }
+        inputs.push(column(name, [low, high]));
+    }
+    for text in &args.domain {
+        let name = text.split('=').next().unwrap_or_default();
+        if !names.inputs.iter().any(|input| input == name) {
+            let hint = did_you_mean(name, names.inputs.iter().map(String::as_str));
+            return Err(Failure::usage(format!(
+                "--domain {text}: the formula has no input `{name}`{hint}"
+            )));
+        }
+    }
+    let anything = [f64::NEG_INFINITY, f64::INFINITY];
+    let outputs: Vec<Column> = names.outputs.iter().map(|name| column(name, anything)).collect();
+    let questions = questions(args, &inputs, &outputs)?;
+    Ok((program, names, questions))
+}
+
+/// What the columns suggest, and what the command line says.
+fn questions(args: &Args, inputs: &[Column], outputs: &[Column]) -> Result<Questions, Failure> {
+    let mut questions = Questions { slack: args.slack, ..Questions::of(inputs, outputs) };
+    for text in &args.range {
+        let (name, bounds) = match text.split_once('=') {
+            Some((name, bounds)) => (Some(name), range(bounds)?),
+            None => (None, range(text)?),
+        };
+        let known = |name: &str| outputs.iter().any(|output| output.name == name);
+        if let Some(name) = name.filter(|name| !known(name)) {
+            let hint = did_you_mean(name, outputs.iter().map(|output| output.name.as_str()));
+            return Err(Failure::usage(format!(
+                "--range {text}: there is no output `{name}`{hint}"
+            )));
+        }
+        for (output, range) in outputs.iter().zip(&mut questions.ranges) {
+            if name.is_none_or(|name| name == output.name) {
+                *range = bounds;
+            }
+        }
+    }
+    if args.energy && questions.energy.is_none() {
+        return Err(Failure::usage("--energy is for formulas with the outputs `scale` and `bias`"));
+    }
+    Ok(questions)
+}
+
+/// `0..1`, `0..` or `..1`.
+fn range(text: &str) -> Result<[f64; 2], Failure> {
+    let end = |text: &str, otherwise: f64| match text {
+        "" => Some(otherwise),
+        text => text.parse().ok().filter(|x: &f64| !x.is_nan()),
+    };
+    text.split_once("..")
+        .and_then(|(low, high)| Some([end(low, f64::NEG_INFINITY)?, end(high, f64::INFINITY)?]))
+        .filter(|[low, high]| low <= high)
+        .ok_or_else(|| Failure::usage(format!("`{text}`: a range is LOW..HIGH, as in 0..1")))
+}
+
+fn check_one(
+    args: &Args,
+    program: &Program,
+    names: &Names,
+    questions: &Questions,
+    common: &Common,
+) -> Result<(), Failure> {
+    let examination = Examination::of(program, questions, args.half);
+    let mut value = examination::json(&examination, names);
+    value["verdict"] = json!(VerdictRecord::new(&examination.verdict, names));
+    let sides = names.inputs.iter().zip(&questions.domain);
+    let sides = sides.map(|(name, side)| format!("{name} in [{}, {}]", side.low(), side.high()));
+    let sides = sides.collect::<Vec<_>>().join(", ");
+    let text = format!(
+        "domain: {sides}; slack {}\n\n{}",
+        args.slack,
+        examination::text(&examination, names)
+    );
+    common.result(&value, &text)?;
+    let verdict = &examination.verdict;
+    let worst = refuted(args, verdict).next();
+    match worst.map(|topic| record_text(verdict, topic, names)) {
+        Some(reason) => Err(Failure::new(Exit::Unmet, anyhow::Error::msg(reason))),
+        None => Ok(()),
+    }
+}
+
+/// The topics asked for in which something is refuted.
+fn refuted<'a>(args: &Args, verdict: &'a Verdict) -> impl Iterator<Item = Topic> + 'a {
+    let asked = [
+        (Topic::Finite, true),
+        (Topic::Range, !args.range.is_empty()),
+        (Topic::Energy, args.energy),
+    ];
+    asked.into_iter().filter(|(_, asked)| *asked).map(|(topic, _)| topic).filter(|&topic| {
+        let worst = verdict.worst(topic);
+        worst.is_some_and(|finding| matches!(finding.exact, Status::Refuted { .. }))
+    })
+}
+
+fn record_text(verdict: &Verdict, topic: Topic, names: &Names) -> String {
+    let record = VerdictRecord::new(verdict, names);
+    let claim = match topic {
+        Topic::Finite => Some(record.finite),
+        Topic::Range => record.range,
+        Topic::Energy => record.energy,
+    };
+    claim.map(|claim| claim_text(&claim)).unwrap_or_default()
+}
+
+fn check_front(args: &Args, folder: &Path, common: &Common) -> Result<(), Failure> {
+    let (run, front) = run_folder::load(folder, args.which)?;
+    let names = run.names();
+    let questions = questions(args, &run.inputs, &run.outputs)?;
+    if let Some(number) = args.pick {
+        let member = number.checked_sub(1).and_then(|i| front.members.get(i)).ok_or_else(|| {
+            Failure::usage(format!(
+                "--pick {number}: give a number from 1 to {}",
+                front.members.len()
+            ))
+        })?;
+        return check_one(args, &member.program, &names, &questions, common);
+    }
+    let judge = |member: &FrontMember| Verdict::of(&member.program, &questions);
+    let verdicts: Vec<Verdict> = front.members.par_iter().map(judge).collect();
+    let pairs = || front.members.iter().zip(&verdicts);
+    let records: Vec<_> = pairs()
+        .map(|(member, verdict)| {
+            let verdict = VerdictRecord::new(verdict, &names);
+            json!({"cost": member.cost, "formula": member.formula, "verdict": verdict})
+        })
+        .collect();
+    let mut text = format!("{:>4}  {:>6}  verdict\n", "#", "cycles");
+    for (i, (member, verdict)) in pairs().enumerate() {
+        text += &rows(i + 1, member, verdict, &names);
+    }
+    text += &totals(&verdicts);
+    common.result(&records, &text)?;
+    let failed = verdicts.iter().filter(|verdict| refuted(args, verdict).next().is_some()).count();
+    if failed > 0 {
+        let message = format!("{failed} of {} formulas fail in what was asked for", verdicts.len());
+        return Err(Failure::new(Exit::Unmet, anyhow::Error::msg(message)));
+    }
+    Ok(())
+}
+
+/// A line for each topic that is not proved, or one.
+fn rows(number: usize, member: &FrontMember, verdict: &Verdict, names: &Names) -> String {
+    let topics = [Topic::Finite, Topic::Range, Topic::Energy];
+    let asked = topics.into_iter().filter(|&topic| verdict.worst(topic).is_some());
+    let proved = |topic: &Topic| {
+        verdict.worst(*topic).is_some_and(|f| f.exact == Status::Proved && f.gpu == Status::Proved)
+    };
+    let (good, bad): (Vec<Topic>, Vec<Topic>) = asked.partition(proved);
+    let words: Vec<&str> = good.iter().map(|&topic| word(topic)).collect();
+    let mut lines = Vec::new();
+    if !words.is_empty() {
+        lines.push(format!("{} proved", words.join(", ")));
+    }
+    lines.extend(bad.iter().map(|&topic| record_text(verdict, topic, names)));
+    let mut text = String::new();
+    for (i, line) in lines.iter().enumerate() {
+        let _ = match i {
+            0 => writeln!(text, "{number:>4}  {:>6}  {line}", cycles_text(member.cost)),
+            _ => writeln!(text, "{:>4}  {:>6}  {line}", "", ""),
+        };
+    }
+    text
+}
+
+fn word(topic: Topic) -> &'static str {
+    match topic {
+        Topic::Finite => "finite",
+        Topic::Range => "range",
+        Topic::Energy => "energy",
+    }
+}
+
+/// How many formulas are proved, refuted, open, by topic.
+fn totals(verdicts: &[Verdict]) -> String {
+    let mut text = String::from("\n              proved  refuted     open\n");
+    for topic in [Topic::Finite, Topic::Range, Topic::Energy] {
+        let found: Vec<_> = verdicts.iter().filter_map(|verdict| verdict.worst(topic)).collect();
+        if found.is_empty() {
+            continue;
+        }
+        for (arithmetic, gpu) in [("f32", false), ("GPUs", true)] {
+            let status = |finding: &&crate::stability::Finding| match gpu {
+                true => finding.gpu.clone(),
+                false => finding.exact.clone(),
+            };
+            let count =
+                |wanted: fn(&Status) -> bool| found.iter().filter(|f| wanted(&status(f))).count();
+            let _ = writeln!(
+                text,
+                "{:<7} {arithmetic:<5} {:>6}   {:>6}   {:>6}",
+                word(topic),
+                count(|status| *status == Status::Proved),
+                count(|status| matches!(status, Status::Refuted { .. })),
+                count(|status| matches!(status, Status::Open { .. }))
+            );
+        }
+    }
+    text
+}

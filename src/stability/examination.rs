@@ -1,0 +1,43 @@
+//! Everything that is looked into of one formula.
+
+use super::{
+    Extent, Precision, Questions, Smoothness, Spread, Verdict, extremes, must_stay_single, spreads,
+};
+use crate::program::{Program, effective};
+
+/// All that `lgp check` says of a formula.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Examination {
+    /// The effective code: what the instructions of everything below are of.
+    pub program: Program,
+    pub verdict: Verdict,
+    pub single: Precision,
+    pub half: Precision,
+    /// The instructions that must stay in single precision for halves to err by `half_bound` at most;
+    /// none where nothing helps.
+    pub stay_single: Option<Vec<usize>>,
+    pub half_bound: f64,
+    pub spreads: Vec<Spread>,
+    pub extremes: Vec<Extent>,
+    pub smoothness: Smoothness,
+}
+
+impl Examination {
+    /// # Panics
+    /// If the program has other numbers of inputs and outputs than the questions.
+    pub fn of(program: &Program, questions: &Questions, half_bound: f64) -> Examination {
+        let program = effective(program);
+        let domain = &questions.domain;
+        Examination {
+            verdict: Verdict::of(&program, questions),
+            single: Precision::single(&program, domain),
+            half: Precision::half(&program, domain),
+            stay_single: must_stay_single(&program, domain, half_bound),
+            half_bound,
+            spreads: spreads(&program, domain),
+            extremes: extremes(&program, domain),
+            smoothness: Smoothness::of(&program, domain),
+            program,
+        }
+    }
+}

@@ -1,0 +1,59 @@
+//! Where to look: points spread over a domain, crowded towards its faces.
+
+use crate::num::Interval;
+
+/// Points spread over a domain, crowded towards its faces: some thousands.
+pub fn points_in(domain: &[Interval]) -> Vec<Vec<f32>> {
+    all(&axes(domain, 2048, 14))
+}
+
+/// Points of each side whose product is `total` or fewer: half of them evenly spaced, the ends among
+/// them, half of them nearer and nearer to both ends, down to `2^-finest` of the width. Of a side
+/// that is a point, that point.
+pub(super) fn axes(domain: &[Interval], total: usize, finest: u32) -> Vec<Vec<f32>> {
+    let sides = domain.iter().filter(|side| side.low() < side.high()).count().max(1);
+    let count = (total as f64).powf(1.0 / sides as f64).floor().clamp(3.0, 257.0) as usize;
+    domain.iter().map(|&side| axis(side, count, finest)).collect()
+}
+
+fn axis(side: Interval, count: usize, finest: u32) -> Vec<f32> {
+    let (low, high) = (f64::from(side.low()), f64::from(side.high()));
+    if low == high {
+        return vec![side.low()];
+    }
+    let even = count.div_ceil(2).max(2);
+    let near = (count - even.min(count)) / 2;
+    let share = |i: usize| i as f64 / (even - 1) as f64;
+    let mut points: Vec<f64> = (0..even).map(|i| low + (high - low) * share(i)).collect();
+    for i in 0..near {
+        // From 2^-2 down, evenly in the exponent.
+        let exponent = 2.0 + (f64::from(finest) - 2.0) * (i + 1) as f64 / near as f64;
+        let step = (high - low) * (-exponent).exp2();
+        points.extend([low + step, high - step]);
+    }
+    let mut points: Vec<f32> =
+        points.into_iter().map(|x| (x as f32).clamp(side.low(), side.high())).collect();
+    points.sort_by(f32::total_cmp);
+    points.dedup();
+    points
+}
+
+/// Calls `visit` at every combination of the axes' points.
+pub(super) fn each(axes: &[Vec<f32>], mut visit: impl FnMut(&[f32])) {
+    let mut point = vec![0.0; axes.len()];
+    for index in 0..axes.iter().map(Vec::len).product() {
+        let mut rest: usize = index;
+        for (x, axis) in point.iter_mut().zip(axes) {
+            *x = axis[rest % axis.len()];
+            rest /= axis.len();
+        }
+        visit(&point);
+    }
+}
+
+/// Every combination of the axes' points.
+pub(super) fn all(axes: &[Vec<f32>]) -> Vec<Vec<f32>> {
+    let mut points = Vec::new();
+    each(axes, |point| points.push(point.to_vec()));
+    points
+}

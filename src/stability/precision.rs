@@ -1,0 +1,166 @@
+//! What single and half precision lose.
+
+use super::blame::{Blame, Cause, Trace, relative, traced};
+use super::variants::unfused;
+use super::{half, points};
+use crate::eval::{Arithmetic, Double};
+use crate::num::Interval;
+use crate::op::Op;
+use crate::program::{Arg, Program};
+
+/// A worst case.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Loss {
+    pub output: usize,
+    pub input: Vec<f32>,
+    /// In low precision, and in `f64`.
+    pub found: f64,
+    pub exact: f64,
+    pub blame: Blame,
+}
+
+impl Loss {
+    /// Infinite where either is no number.
+    pub fn absolute(&self) -> f64 {
+        let error = (self.found - self.exact).abs();
+        if error.is_nan() { f64::INFINITY } else { error }
+    }
+
+    /// Where `f64` has underflowed too, all is lost.
+    pub fn relative(&self) -> f64 {
+        match relative(self.found, self.exact) {
+            0.0 if self.blame.cause == Cause::Underflow => 1.0,
+            error => error,
+        }
+    }
+
+    /// The error in units in the last place of `f32`.
+    pub fn ulps(&self) -> f64 {
+        let exact = (self.exact as f32).abs();
+        self.absolute() / f64::from(exact.next_up() - exact)
+    }
+}
+
+/// The worst cases found, by absolute and by relative error, where `f64` gives a number; and where low
+/// precision gives none, if anywhere.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Precision {
+    pub absolute: Option<Loss>,
+    pub relative: Option<Loss>,
+    pub not_finite: Option<Loss>,
+}
+
+/// Points that are looked at.
+const POINTS: usize = 4096;
+
+impl Precision {
+    /// Of `f32` against `f64`, with products and sums fused where the program says so and not, at
+    /// points spread over the domain and crowded towards its faces.
+    ///
+    /// # Panics
+    /// If `domain` has not one interval for each input.
+    pub fn single(program: &Program, domain: &[Interval]) -> Precision {
+        let forms = [program.clone(), unfused(program)];
+        let points = points::all(&points::axes(domain, POINTS, 24));
+        let least = f32::MIN_POSITIVE.into();
+        worst(&forms, &points, least, |program, point| {
+            program.evaluate(point).into_iter().map(f64::from).collect()
+        })
+    }
+
+    /// The same of half precision, at inputs that halves can hold.
+    ///
+    /// # Panics
+    /// If `domain` has not one interval for each input.
+    pub fn half(program: &Program, domain: &[Interval]) -> Precision {
+        let forms = [program.clone(), unfused(program)];
+        let points = half::points(domain, POINTS);
+        let least = half::LEAST_NORMAL;
+        worst(&forms, &points, least, |program, point| half::outputs(program, &[], point))
+    }
+}
+
+fn worst(
+    forms: &[Program],
+    points: &[Vec<f32>],
+    least: f64,
+    evaluate: impl Fn(&Program, &[f32]) -> Vec<f64>,
+) -> Precision {
+    let mut worst = Precision::default();
+    for program in forms {
+        let traced = traced(program);
+        let count = program.instrs.len();
+        for point in points {
+            let found = evaluate(&traced, point);
+            let inputs: Vec<f64> = point.iter().map(|&x| x.into()).collect();
+            let exact = Double.evaluate(&traced, &inputs);
+            let trace = Trace { program, inputs: point, found: &found, exact: &exact, least };
+            for (output, &arg) in program.outputs.iter().enumerate() {
+                let (f, e) = (found[count + output], exact[count + output]);
+                let vanished = vanished(&trace, f, e);
+                let plain = Blame { instruction: None, cause: Cause::Rounding, condition: 1.0 };
+                let blame = vanished.unwrap_or(plain);
+                let input = Vec::new();
+                let mut loss = Loss { output, input, found: f, exact: e, blame };
+                if !worst.is_worsened_by(&loss) {
+                    continue;
+                }
+                loss.blame = vanished.unwrap_or_else(|| trace.blame(arg));
+                loss.input.clone_from(point);
+                worst.take(&loss);
+            }
+        }
+    }
+    worst
+}
+
+impl Precision {
+    fn is_worsened_by(&self, loss: &Loss) -> bool {
+        let exceeds = |known: &Option<Loss>, size: fn(&Loss) -> f64| {
+            known.as_ref().is_none_or(|known| size(loss) > size(known))
+        };
+        loss.exact.is_finite()
+            && (exceeds(&self.absolute, Loss::absolute) || exceeds(&self.relative, Loss::relative))
+            || !loss.found.is_finite() && self.not_finite.is_none()
+    }
+
+    /// Notes a loss where it is worse than what is known.
+    fn take(&mut self, loss: &Loss) {
+        let offer = |to: &mut Option<Loss>, size: fn(&Loss) -> f64| {
+            if to.as_ref().is_none_or(|known| size(loss) > size(known)) {
+                *to = Some(loss.clone());
+            }
+        };
+        if loss.exact.is_finite() {
+            offer(&mut self.absolute, Loss::absolute);
+            offer(&mut self.relative, Loss::relative);
+        }
+        if !loss.found.is_finite() {
+            offer(&mut self.not_finite, |_| 1.0);
+        }
+    }
+}
+
+/// The exponential that is zero even in `f64`, although no exponential is, where that makes the
+/// output zero.
+fn vanished(trace: &Trace, found: f64, exact: f64) -> Option<Blame> {
+    if found != 0.0 || exact != 0.0 {
+        return None;
+    }
+    let value = |arg: Arg| match arg {
+        Arg::Input(i) => f64::from(trace.inputs[usize::from(i)]),
+        Arg::Const(i) => f64::from(trace.program.consts[usize::from(i)]),
+        Arg::Result(i) => trace.exact[usize::from(i)],
+    };
+    let place = trace.program.instrs.iter().enumerate().position(|(i, instr)| {
+        let args = instr.args();
+        trace.exact[i] == 0.0
+            && match instr.op() {
+                Op::Exp | Op::Exp2 => value(args[0]).is_finite(),
+                Op::Pow => value(args[0]) > 0.0 && value(args[1]).is_finite(),
+                _ => false,
+            }
+    });
+    let condition = f64::INFINITY;
+    place.map(|i| Blame { instruction: Some(i), cause: Cause::Underflow, condition })
+}
