@@ -1,8 +1,11 @@
 //! The search: islands of programs, varied, costed, fitted, and kept where they are best.
 //!
-//! Each generation every island considers the same number of candidates on a random stream of its
+//! Each generation every island considers a fixed number of candidates on a random stream of its
 //! own (seed, island, generation); archives are merged and migrants exchanged only between
 //! generations, in the islands' order. So the number of threads changes nothing but the time.
+//!
+//! Islands differ in the cycles that a formula may cost there, and in who competes: on some only formulas
+//! with the same families of operations, so that a root or an exponential, dear at first, can grow.
 
 mod census;
 mod enumerate;
