@@ -249,3 +249,15 @@ fn a_transformed_output_ends_in_the_inverse() {
         assert!(last.starts_with("exp2(") || last.parse::<f32>().is_ok(), "{}", member.formula);
     }
 }
+
+#[test]
+fn random_restarts_alone_find_less() {
+    let data = dataset("dfg", &["bias"]);
+    let least = |immigrants: f64| {
+        let settings = Settings { max_cost: 10.0, immigrants, ..Settings::default() };
+        let front = search(&data, "shader", 10, settings);
+        front.members.last().unwrap().search_error().rmse
+    };
+    let (children, some, none) = (least(0.0), least(0.1), least(1.0));
+    assert!(children < 0.8 * none && some < 0.9 * none, "{children} {some} {none}");
+}

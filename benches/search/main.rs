@@ -42,8 +42,8 @@ fn seconds(args: &Args, work: impl FnOnce()) -> f64 {
     }
 }
 
-/// Cycles up to which all formulas are tried first, as `lgp search` does.
-const ENUMERATED: f64 = 1.0;
+/// Cycles up to which all formulas are tried first, if they are no more than this, as `lgp search` does.
+const ENUMERATED: (f64, usize) = (1.0, 4000);
 
 #[derive(Parser)]
 struct Args {
@@ -191,7 +191,7 @@ fn measure(args: &Args, case: &Case, profile: &Profile, seed: u64) -> Result<(),
     let settings = Settings { seed, max_cost: args.max_cost, ..Settings::default() };
     let problem = Problem::new(&case.dataset, &grammar, profile, &settings);
     let mut search = Search::new(settings);
-    let mut clock = seconds(args, || search.enumerate(&problem, ENUMERATED));
+    let mut clock = seconds(args, || search.enumerate(&problem, ENUMERATED.0, ENUMERATED.1));
     let mut trace: Vec<TracePoint> = Vec::new();
     for &budget in &args.budgets {
         while !budget.is_spent(clock, search.generation()) {

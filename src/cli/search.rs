@@ -64,9 +64,12 @@ pub struct Args {
     #[arg(long, value_name = "N", default_value_t = 8)]
     #[arg(value_parser = clap::value_parser!(u16).range(1..=256))]
     islands: u16,
-    /// Try all formulas of at most C cycles first, if they are few enough
-    #[arg(long, value_name = "C", default_value_t = 1.0)]
-    exhaustive: f64,
+    /// Try all formulas of at most C cycles first [default: of 1 cycle, if they are few]
+    #[arg(long, value_name = "C")]
+    exhaustive: Option<f64>,
+    /// The share of candidates that are made at random, not from others; 1 for random restarts
+    #[arg(long, value_name = "SHARE", default_value_t = 0.0, value_parser = share)]
+    immigrants: f64,
     /// A formula to start from, over the dataset's columns; may be given more than once
     #[arg(long, value_name = "FORMULA")]
     guess: Vec<String>,
@@ -102,11 +105,12 @@ pub fn run(args: &Args, common: &Common) -> Result<(), Failure> {
         islands: args.islands.into(),
         max_cost: args.max_cost.or(tiers_spend).unwrap_or(MAX_COST),
         measure: args.loss.unwrap_or(Measure::usual(&dataset.search)),
+        immigrants: args.immigrants,
         requirements: requirements(args, dataset)?,
         transforms: transforms(&args.transform, dataset)?,
         ..Settings::default()
     };
-    let (mut search, before) = if args.resume {
+    let (mut search, mut before) = if args.resume {
         resumed(&folder, &subject, &settings, args)?
     } else {
         (Search::new(settings), 0.0)
@@ -114,7 +118,9 @@ pub fn run(args: &Args, common: &Common) -> Result<(), Failure> {
     run_folder::create(&folder)?;
     let problem = Problem::new(dataset, &grammar, &profile, search.settings());
     if !args.resume {
-        search.enumerate(&problem, args.exhaustive);
+        let start = Instant::now();
+        enumerate(&mut search, &problem, args.exhaustive)?;
+        before = start.elapsed().as_secs_f64();
         search.settle(&guesses, &problem);
     }
     let mut partial = PartialRun::new(&folder, args.resume)?;
@@ -152,6 +158,29 @@ pub fn run(args: &Args, common: &Common) -> Result<(), Failure> {
         return Err(Failure::new(Exit::Interrupted, anyhow::Error::msg(done)));
     }
     tiers::check(&run, &front)
+}
+
+/// Without `--exhaustive`, formulas up to this cost are all tried if they are no more than this.
+const USUALLY_ENUMERATED: (f64, usize) = (1.0, 4000);
+
+/// With it, so many at most: a few minutes.
+const MOST_ENUMERATED: usize = 200_000;
+
+fn enumerate(search: &mut Search, problem: &Problem, asked: Option<f64>) -> Result<(), Failure> {
+    let (cost, most) = asked.map_or(USUALLY_ENUMERATED, |cost| (cost, MOST_ENUMERATED));
+    search.enumerate(problem, cost, most);
+    if asked.is_some() && search.enumeration().is_none() {
+        let message = format!(
+            "--exhaustive: more than {MOST_ENUMERATED} formulas cost at most {cost} cycles; ask for fewer cycles"
+        );
+        return Err(Failure::usage(message));
+    }
+    Ok(())
+}
+
+fn share(text: &str) -> Result<f64, String> {
+    let share = text.parse().ok().filter(|share| (0.0..=1.0).contains(share));
+    share.ok_or_else(|| "a share is from 0 to 1".into())
 }
 
 fn guesses(texts: &[String], dataset: &Dataset) -> Result<Vec<Draft>, Failure> {

@@ -28,9 +28,6 @@ const ON_ALL: Stop = Stop { max_steps: 40, min_gain: 1e-4 };
 /// In mean square, how near the best so far a structure must come on the subset.
 const NEAR: f64 = 1.5;
 
-/// Structures beyond which it is given up.
-const MOST: usize = 4000;
-
 /// All programs of at most some cycles.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Enumeration {
@@ -40,9 +37,10 @@ pub struct Enumeration {
 }
 
 impl Search {
-    /// Takes in all programs of at most `cost` cycles, fitted; nothing where they are too many.
-    pub fn enumerate(&mut self, problem: &Problem, cost: f64) {
-        let Some(structures) = structures(problem, cost, MOST) else { return };
+    /// Takes in all programs of at most `cost` cycles, fitted; nothing where they differ in more than
+    /// `most` structures.
+    pub fn enumerate(&mut self, problem: &Problem, cost: f64, most: usize) {
+        let Some(structures) = structures(problem, cost, most) else { return };
         let members = best_of(&structures, problem);
         let drafts: Vec<Draft> = members.iter().map(|member| member.draft.clone()).collect();
         for member in members {
@@ -227,7 +225,7 @@ mod tests {
         }
         assert_eq!(structures(&problem, 1.0, all.len() - 1), None);
         let mut search = Search::new(settings.clone());
-        search.enumerate(&problem, 1.0);
+        search.enumerate(&problem, 1.0, all.len());
         assert!(search.archive().best_loss(1.0) < 1e-12);
         assert_eq!(search.enumeration().map(|e| e.structures), Some(all.len()));
     }

@@ -9,7 +9,7 @@ use crate::fit::{Fitter, Stop};
 use crate::op::Op;
 use crate::program::{Arg, Constants, Draft, effective_into, structural_hash};
 use crate::simplify::Simplifier;
-use rand::SeedableRng;
+use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 use serde::{Deserialize, Serialize};
 
@@ -104,7 +104,7 @@ impl Island {
         rng.set_stream(stream);
         for _ in 0..self.candidates(settings) {
             self.counts.considered += 1;
-            self.conceive(&mut rng, problem);
+            self.conceive(&mut rng, problem, settings.immigrants);
             for (output, transform) in problem.transforms() {
                 transform.undo(&mut self.workshop.child, output);
             }
@@ -119,11 +119,12 @@ impl Island {
         (settings.candidates as f64 / share.clamp(LEAST_SHARE, 1.0).powi(2)) as usize
     }
 
-    /// Makes a child of the population, or a random draft where there is none.
-    fn conceive(&mut self, rng: &mut ChaCha8Rng, problem: &Problem) {
+    /// Makes a child of the population, or a random draft where there is none, or for an immigrant.
+    fn conceive(&mut self, rng: &mut ChaCha8Rng, problem: &Problem, immigrants: f64) {
         let Workshop { variation, child, .. } = &mut self.workshop;
+        let immigrates = immigrants > 0.0 && rng.random::<f64>() < immigrants;
         match (self.population.pick(rng), self.population.pick(rng)) {
-            (Some(parent), Some(donor)) => {
+            (Some(parent), Some(donor)) if !immigrates => {
                 child.copy_from(&parent.draft);
                 variation.vary(rng, child, &donor.draft, problem.grammar);
             }

@@ -50,6 +50,9 @@ pub struct Settings {
     /// Candidates that an island with the whole cost budget considers in a generation; one with less
     /// considers more, up to a hundred times as many.
     pub candidates: usize,
+    /// The share of candidates that are random rather than children; all of them make it a search by
+    /// random restarts and fitting, to compare with.
+    pub immigrants: f64,
     /// Individuals that an island keeps at each cost.
     pub bucket_size: usize,
     /// Cycles that a candidate may cost at most.
@@ -72,6 +75,7 @@ impl Default for Settings {
             seed: 1,
             islands: 8,
             candidates: 400,
+            immigrants: 0.0,
             bucket_size: 3,
             max_cost: 40.0,
             migration_interval: 20,
