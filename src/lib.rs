@@ -23,7 +23,7 @@
 //! | [`archive`], [`search`] | the Pareto archive; islands, variation, fronts; runs on disk, their union, what recurs |
 //! | [`emit`] | formulas as HLSL, WGSL, GLSL, MSL, and back; as C, Rust, Python, LaTeX |
 //! | [`quadrature`], [`microfacet`], [`targets`] | integration, BRDF models, ground truths |
-//! | [`report`] | tables and pictures |
+//! | [`report`] | tables, plots, maps, the page of a run, spheres |
 //! | [`cli`] | a file a subcommand |
 //!
 //! # A search in ten lines

@@ -68,7 +68,6 @@ pub fn run(args: &Args, common: &Common) -> Result<(), Failure> {
 }
 
 fn pick<'a>(args: &Args, run: &Run, front: &'a Front) -> Result<&'a FrontMember, Failure> {
-    let members = &front.members;
     let unmet = |message: String| Failure::new(Exit::Unmet, anyhow::Error::msg(message));
     if args.max_cost.is_some() || args.max_error.is_some() {
         return front.within(args.max_cost, args.max_error).ok_or_else(|| {
@@ -79,7 +78,17 @@ fn pick<'a>(args: &Args, run: &Run, front: &'a Front) -> Result<&'a FrontMember,
     if let Some(tier) = &args.tier {
         return tiers::pick(run, front, tier);
     }
-    match args.pick.as_deref() {
+    numbered(front, args.pick.as_deref())
+}
+
+/// The member of a number in the table, or the knee.
+pub(super) fn numbered<'a>(
+    front: &'a Front,
+    pick: Option<&str>,
+) -> Result<&'a FrontMember, Failure> {
+    let members = &front.members;
+    let unmet = |message: String| Failure::new(Exit::Unmet, anyhow::Error::msg(message));
+    match pick {
         None | Some("knee") => front.knee().ok_or_else(|| unmet("the front is empty".into())),
         Some(number) => {
             number.parse::<usize>().ok().and_then(|n| members.get(n.checked_sub(1)?)).ok_or_else(

@@ -31,6 +31,7 @@ pub fn run(args: &Args, common: &Common) -> Result<(), Failure> {
     run_folder::create(&args.out)?;
     let incumbents = front::incumbents(&run).unwrap_or_default();
     run_folder::write_fronts(&args.out, &run, &union, &minimax, &incumbents)?;
+    run_folder::write_plots(&args.out, &run, &union, &incumbents)?;
     run.save(&args.out)?;
     let names = run.names();
     let records: Vec<_> = union.members.iter().map(|m| MemberRecord::new(m, &names)).collect();

@@ -18,6 +18,8 @@ mod list;
 mod merge;
 mod output;
 mod pruning;
+mod render;
+mod report;
 mod run_folder;
 mod scene;
 mod search;
@@ -50,6 +52,7 @@ To begin:
                                 against GPU cycles, and one to paste
   lgp emit runs/dfg --lang wgsl --max-cost 16
                                 the best one that you can afford
+  lgp report runs/dfg           a page of it: where formulas err, spheres, code
   lgp eval \"scale = 1 - roughness\" dfg.bin --outputs scale
                                 a formula of your own on the same axes
   lgp cost \"y = exp2(-a*b)\"     what a formula costs on each GPU
@@ -80,6 +83,8 @@ enum Command {
     Cost(cost::Args),
     Check(check::Args),
     Verify(verify::Args),
+    Report(report::Args),
+    Render(render::Args),
     Analyze(analyze::Args),
     Merge(merge::Args),
     Fit(fit::Args),
@@ -101,6 +106,8 @@ impl Command {
             Command::Cost(args) => cost::run(args, common),
             Command::Check(args) => check::run(args, common),
             Command::Verify(args) => verify::run(args, common),
+            Command::Report(args) => report::run(args, common),
+            Command::Render(args) => render::run(args, common),
             Command::Analyze(args) => analyze::run(args, common),
             Command::Merge(args) => merge::run(args, common),
             Command::Fit(args) => fit::run(args, common),

@@ -99,7 +99,7 @@ impl PartialRun {
     }
 }
 
-/// Writes both fronts, and the one searched for as text, pictures and snippets.
+/// Writes both fronts, and the one searched for as text and snippets.
 pub fn write_fronts(
     folder: &Path,
     run: &Run,
@@ -111,7 +111,6 @@ pub fn write_fronts(
     write(folder, FRONT, front.to_json(&names).as_bytes())?;
     write(folder, MINIMAX_FRONT, minimax.to_json(&names).as_bytes())?;
     write(folder, "front.txt", front_table(front, incumbents, &names.outputs).as_bytes())?;
-    write_plots(folder, run, front, incumbents)?;
     let snippets = folder.join("snippets");
     let _ = std::fs::remove_dir_all(&snippets);
     create(&snippets)?;
@@ -124,7 +123,8 @@ pub fn write_fronts(
     Ok(())
 }
 
-fn write_plots(
+/// The front as a picture.
+pub fn write_plots(
     folder: &Path,
     run: &Run,
     front: &Front,
@@ -202,7 +202,7 @@ fn header(run: &Run, member: &FrontMember) -> Vec<String> {
 }
 
 /// The seed of a search, or those of a union.
-fn seeds(run: &Run) -> String {
+pub(super) fn seeds(run: &Run) -> String {
     if run.sources.is_empty() {
         return format!("seed {}", run.settings.seed);
     }
@@ -226,7 +226,7 @@ fn described(error: OutputError) -> String {
     format!("RMSE {rmse}, max {max}{}", visible.unwrap_or_default())
 }
 
-fn domains(inputs: &[Column]) -> String {
+pub(super) fn domains(inputs: &[Column]) -> String {
     let domain = |column: &Column| {
         let [low, high] = column.domain;
         format!("{} in [{low}, {high}]", column.name)

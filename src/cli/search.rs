@@ -1,6 +1,6 @@
 use super::run_folder::{self, PartialRun};
 use super::subject::Subject;
-use super::{Common, Exit, Failure, columns::Columns, duration, tiers};
+use super::{Common, Exit, Failure, columns::Columns, duration, report, tiers};
 use crate::cost::Profile;
 use crate::dataset::Dataset;
 use crate::fit::Measure;
@@ -149,6 +149,7 @@ pub fn run(args: &Args, common: &Common) -> Result<(), Failure> {
         sources: Vec::new(),
     };
     partial.finish(&run, &front, &minimax, &incumbents, &search, dataset)?;
+    report::write(&folder, common)?;
     show(common, &run, &front, &incumbents, &folder)?;
     if interrupted.load(Ordering::Relaxed) {
         let done = format!(

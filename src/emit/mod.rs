@@ -29,7 +29,9 @@ mod c;
 mod c_family;
 mod glsl;
 mod hlsl;
+mod javascript;
 mod latex;
+mod mathml;
 mod msl;
 mod naming;
 mod python;
@@ -174,6 +176,23 @@ pub fn emit_half(language: Language, snippet: &Snippet) -> Option<String> {
         Language::C | Language::Rust | Language::Python | Language::Latex => return None,
     };
     Some(written(syntax, snippet))
+}
+
+/// The snippet as a function of JavaScript that returns an array of its outputs, for pages; it calls
+/// `f32`, which is to be `Math.fround`.
+///
+/// # Panics
+/// As [`emit`] does.
+pub fn javascript(snippet: &Snippet) -> String {
+    written(&javascript::SYNTAX, snippet)
+}
+
+/// The snippet as equations that browsers typeset, without its header.
+///
+/// # Panics
+/// As [`emit`] does.
+pub fn mathml(snippet: &Snippet) -> String {
+    written(&mathml::SYNTAX, &Snippet { header: &[], ..*snippet })
 }
 
 fn written(syntax: &'static Syntax, snippet: &Snippet) -> String {

@@ -182,14 +182,16 @@ pub(super) fn is_word(list: &str, name: &str) -> bool {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::emit::Language;
+    use crate::emit::{Language, javascript, mathml};
     use crate::op::MAX_ARITY;
 
     #[test]
     fn every_spelling_writes_each_argument() {
-        for language in Language::ALL {
+        let pages = [&javascript::SYNTAX, &mathml::SYNTAX];
+        for syntax in Language::ALL.iter().map(|language| language.syntax()).chain(pages) {
+            let language = syntax.name;
             for &op in Op::ALL {
-                let template = (language.syntax().spelling)(op).template;
+                let template = (syntax.spelling)(op).template;
                 let mut arguments: Vec<usize> =
                     pieces(template).0.iter().map(|(_, place)| place.argument).collect();
                 arguments.sort_unstable();

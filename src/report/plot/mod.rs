@@ -7,7 +7,7 @@ mod draw;
 mod frame;
 mod labels;
 mod lines;
-mod text;
+pub(super) mod text;
 
 use canvas::{Bitmap, Canvas, HEIGHT, Surface, Vector, WIDTH};
 
@@ -158,7 +158,7 @@ fn averaged(fine: &[u8], width: u32, height: u32, finer: u32) -> Vec<u8> {
     pixels
 }
 
-fn encode(pixels: &[u8], width: u32, height: u32) -> Result<Vec<u8>, PlotError> {
+pub(super) fn encode(pixels: &[u8], width: u32, height: u32) -> Result<Vec<u8>, PlotError> {
     let mut bytes = Vec::new();
     let mut encoder = png::Encoder::new(&mut bytes, width, height);
     encoder.set_color(png::ColorType::Rgb);

@@ -4,7 +4,7 @@ use ab_glyph::{Font, FontRef, Glyph, PxScale, ScaleFont, point};
 use std::sync::LazyLock;
 
 /// For SVG, whose reader may not have the first.
-pub(super) const FAMILY: &str = "DejaVu Sans, Verdana, Geneva, sans-serif";
+pub(in crate::report) const FAMILY: &str = "DejaVu Sans, Verdana, Geneva, sans-serif";
 
 static REGULAR: LazyLock<Option<FontRef>> =
     LazyLock::new(|| FontRef::try_from_slice(include_bytes!("../font/DejaVuSans.ttf")).ok());
@@ -13,37 +13,37 @@ static BOLD: LazyLock<Option<FontRef>> =
     LazyLock::new(|| FontRef::try_from_slice(include_bytes!("../font/DejaVuSans-Bold.ttf")).ok());
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Weight {
+pub(in crate::report) enum Weight {
     Regular,
     Bold,
 }
 
 /// Size in units of the em square, and weight.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Face {
+pub(in crate::report) struct Face {
     pub size: f64,
     pub weight: Weight,
 }
 
 impl Face {
-    pub(super) const fn regular(size: f64) -> Face {
+    pub(in crate::report) const fn regular(size: f64) -> Face {
         Face { size, weight: Weight::Regular }
     }
 
-    pub(super) const fn bold(size: f64) -> Face {
+    pub(in crate::report) const fn bold(size: f64) -> Face {
         Face { size, weight: Weight::Bold }
     }
 
-    pub(super) fn scaled(self, scale: f64) -> Face {
+    pub(in crate::report) fn scaled(self, scale: f64) -> Face {
         Face { size: self.size * scale, ..self }
     }
 
-    pub(super) fn width(self, text: &str) -> f64 {
+    pub(in crate::report) fn width(self, text: &str) -> f64 {
         self.set(text).1
     }
 
     /// Coverage of each pixel, where the text begins at 0 on the baseline.
-    pub(super) fn rasterise(self, text: &str, mut pixel: impl FnMut(i32, i32, f32)) {
+    pub(in crate::report) fn rasterise(self, text: &str, mut pixel: impl FnMut(i32, i32, f32)) {
         let Some(font) = self.font() else { return };
         let outlined = |glyph| font.outline_glyph(glyph);
         for glyph in self.set(text).0.into_iter().filter_map(outlined) {
@@ -53,7 +53,7 @@ impl Face {
     }
 
     /// The text, or as much of its beginning as fits, with an ellipsis.
-    pub(super) fn fitted(self, text: &str, width: f64) -> String {
+    pub(in crate::report) fn fitted(self, text: &str, width: f64) -> String {
         let mut kept: String = text.chars().map(printable).collect();
         if self.width(&kept) <= width {
             return kept;

@@ -1,0 +1,200 @@
+//! `lgp render`: spheres shaded with the truth, a formula, and their difference.
+
+use super::run_folder::{self, Which};
+use super::{Common, Exit, Failure, emit, output, report};
+use crate::dataset::{Dataset, replace_file};
+use crate::program::Program;
+use crate::report::plot::{PlotError, Theme};
+use crate::report::spheres::{
+    DIFFERENCE_TIMES, Environment, Labels, Material, SphereTable, Spheres, View, difference,
+    displayed_rmse, picture,
+};
+use crate::report::table::cycles_text;
+use crate::search::Run;
+use serde::Serialize;
+use std::path::PathBuf;
+
+/// Draw spheres with the truth, with a formula, and their difference, as a PNG
+///
+/// A row over roughness each, displayed in sRGB. Known are the columns of dfg, area_light, area_norm,
+/// fresnel, smith_g1, smith_g2 and disney_zh (zh0).
+#[derive(clap::Args)]
+pub struct Args {
+    /// A folder that `lgp search` or `lgp merge` wrote
+    run: PathBuf,
+    #[command(flatten)]
+    which: Which,
+    /// Which formula: its number in the table, or the knee
+    #[arg(long, value_name = "knee|N", default_value = "knee")]
+    pick: String,
+    /// What surrounds the spheres: uniform, sky or studio
+    #[arg(long, value_name = "E", default_value_t)]
+    environment: Environment,
+    /// Perceptual roughness of each column
+    #[arg(long, value_name = "R,…", value_delimiter = ',', value_parser = unit)]
+    #[arg(default_values_t = ROUGHNESSES)]
+    roughness: Vec<f32>,
+    /// Reflectance at normal incidence
+    #[arg(long, value_name = "F", default_value_t = View::default().f0, value_parser = unit)]
+    f0: f32,
+    /// Full angle of a spherical light's cone, in radians
+    #[arg(long, value_name = "A", default_value_t = View::default().omega, value_parser = unit)]
+    omega: f32,
+    /// In stops
+    #[arg(long, value_name = "S", default_value_t = View::default().exposure, value_parser = stops)]
+    #[arg(allow_hyphen_values = true)]
+    exposure: f32,
+    /// Pixels across a sphere
+    #[arg(long, value_name = "N", default_value_t = SIZE)]
+    #[arg(value_parser = clap::value_parser!(u16).range(16..=1024))]
+    size: u16,
+    /// The spheres alone, side by side, without words
+    #[arg(long)]
+    bare: bool,
+    /// Where the picture is written [default: spheres.png in the folder]
+    #[arg(long, short, value_name = "FILE")]
+    output: Option<PathBuf>,
+    /// The dataset, if it is not where the run found it
+    #[arg(long, value_name = "FILE")]
+    dataset: Option<PathBuf>,
+}
+
+pub(super) const ROUGHNESSES: [f32; 6] = [0.05, 0.2, 0.4, 0.6, 0.8, 1.0];
+pub(super) const SIZE: u16 = 200;
+
+fn unit(text: &str) -> Result<f32, String> {
+    match text.parse::<f32>() {
+        Ok(value) if (0.0..=1.0).contains(&value) => Ok(value),
+        _ => Err("give a number from 0 to 1".into()),
+    }
+}
+
+fn stops(text: &str) -> Result<f32, String> {
+    match text.parse::<f32>() {
+        Ok(value) if value.abs() <= 20.0 => Ok(value),
+        _ => Err("give a number of stops, from -20 to 20".into()),
+    }
+}
+
+#[derive(Serialize)]
+struct Written {
+    picture: PathBuf,
+    /// Root mean square of the displayed differences, over all spheres, channels in [0, 1].
+    displayed_rmse: f64,
+}
+
+pub fn run(args: &Args, common: &Common) -> Result<(), Failure> {
+    let (mut run, front) = run_folder::load(&args.run, args.which)?;
+    let member = emit::numbered(&front, Some(&args.pick))?;
+    if let Some(path) = &args.dataset {
+        run.dataset = path.clone();
+    }
+    let dataset = report::dataset(&run)
+        .map_err(|problem| Failure::new(Exit::Input, anyhow::Error::msg(problem)))?;
+    let path = args.output.clone().unwrap_or_else(|| args.run.join("spheres.png"));
+    output::check_writable(&path)?;
+    let view = View { f0: args.f0, omega: args.omega, exposure: args.exposure, ..View::default() };
+    let drawing = Drawing {
+        run: &run,
+        dataset: &dataset,
+        environment: args.environment,
+        view,
+        roughness: &args.roughness,
+        size: args.size.into(),
+    };
+    let name = format!("formula, {} cycles on {}", cycles_text(member.cost), run.gpu);
+    let theme = (!args.bare).then_some(Theme::Light);
+    let (png, displayed_rmse) = drawing.png(&member.program, &name, theme)?;
+    replace_file(&path, &png).map_err(|error| Failure::unwritable(&path, error))?;
+    let text =
+        format!("{}: displayed colours differ by {displayed_rmse:.4} (RMSE)", path.display());
+    common.summary(&Written { picture: path, displayed_rmse }, &text)
+}
+
+/// What is to be drawn, of which only the formula is missing.
+pub(super) struct Drawing<'a> {
+    pub run: &'a Run,
+    pub dataset: &'a Dataset,
+    pub environment: Environment,
+    pub view: View,
+    pub roughness: &'a [f32],
+    pub size: usize,
+}
+
+impl Drawing<'_> {
+    /// The picture, with labels if there is a theme, and how much displayed colours differ.
+    pub fn png(
+        &self,
+        formula: &Program,
+        name: &str,
+        theme: Option<Theme>,
+    ) -> Result<(Vec<u8>, f64), Failure> {
+        let Run { inputs, outputs, .. } = self.run;
+        let refused = |reason: String| {
+            Failure::new(Exit::Input, anyhow::anyhow!("{}: {reason}", self.run.name))
+        };
+        let spheres = Spheres::of(inputs, outputs, self.environment).ok_or_else(|| {
+            let names = self.run.names();
+            let (inputs, outputs) = (names.inputs.join(", "), names.outputs.join(", "));
+            refused(format!(
+                "no sphere is known for {inputs} → {outputs}; `lgp render --help` says for which"
+            ))
+        })?;
+        let table = SphereTable::of(self.dataset).ok_or_else(|| {
+            refused(
+                "its samples are no evenly spaced grid, so the truth is not known between".into(),
+            )
+        })?;
+        let mut rows = [const { Vec::new() }; 3];
+        for &roughness in self.roughness {
+            let view = View { roughness, ..self.view };
+            let truth = spheres.shade(Material::Table(&table), &view, self.size);
+            let made = spheres.shade(Material::Formula(formula), &view, self.size);
+            let apart = difference(&truth, &made);
+            rows.iter_mut().zip([truth, made, apart]).for_each(|(row, square)| row.push(square));
+        }
+        let squares = rows[0]
+            .iter()
+            .zip(&rows[1])
+            .map(|(truth, made)| displayed_rmse(truth, made, self.size).powi(2));
+        let rmse = (squares.sum::<f64>() / rows[0].len() as f64).sqrt();
+        let labels = theme.map(|theme| self.labels(name, spheres.uses_f0(), theme));
+        let png = picture(&rows, self.size, labels.as_ref())
+            .map_err(|error: PlotError| Failure::new(Exit::Failed, error))?;
+        Ok((png, rmse))
+    }
+
+    fn labels(&self, name: &str, uses_f0: bool, theme: Theme) -> Labels {
+        let View { f0, omega, exposure, .. } = self.view;
+        let names = self.run.names();
+        let mut given = Vec::new();
+        if Spheres::has_environments(&names.outputs) {
+            given.push(format!("environment {}", self.environment));
+        }
+        if uses_f0 {
+            let own = self.run.inputs.iter().find(|input| input.name == "f0");
+            let [least, most] = own.map_or([0.0, 1.0], |input| input.domain).map(|end| end as f32);
+            given.push(format!("F0 {}", f0.clamp(least, most)));
+        }
+        if names.inputs.iter().any(|input| input == "omega") {
+            given.push(format!("light's full angle {omega} rad"));
+        }
+        if exposure != 0.0 {
+            given.push(format!("exposure {exposure:+} stops"));
+        }
+        Labels {
+            title: format!("{}: {}", self.run.name, names.outputs.join(", ")),
+            subtitle: (given.into_iter())
+                .chain(["roughness from left to right".to_owned()])
+                .collect::<Vec<_>>()
+                .join("; "),
+            rows: vec![
+                "truth".to_owned(),
+                name.to_owned(),
+                format!("|difference| of displayed colours × {DIFFERENCE_TIMES}"),
+            ],
+            columns: self.roughness.iter().map(f32::to_string).collect(),
+            theme,
+        }
+    }
+}

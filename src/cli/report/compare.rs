@@ -1,0 +1,114 @@
+//! Several runs beside each other.
+
+use super::{check_whole, content};
+use crate::cli::run_folder::{self, Which};
+use crate::cli::{Exit, Failure, output};
+use crate::dataset::replace_file;
+use crate::report::page::{self, ComparedRun, Comparison, Group};
+use crate::search::{Run, TRACE_COSTS};
+use std::path::{Path, PathBuf};
+
+/// Gives the bytes of the page.
+pub(super) fn write(folders: &[PathBuf], path: &Path) -> Result<usize, Failure> {
+    output::check_writable(path)?;
+    let mut runs = Vec::new();
+    for folder in folders {
+        check_whole(folder)?;
+        let (run, front) = run_folder::load(folder, Which { minimax: false })?;
+        let members = front.members.iter().map(|member| {
+            let error = member.search_error();
+            [member.cost, error.rmse, error.max]
+        });
+        let compared = ComparedRun {
+            seconds: run.seconds,
+            considered: run.counts.considered,
+            front: members.collect(),
+            trace: content::trace(folder)?,
+        };
+        runs.push((run, compared));
+    }
+    let first = runs[0].0.clone();
+    check_comparable(folders, &runs, &first)?;
+    let comparison = Comparison {
+        title: format!("{}: {} runs compared", first.name, runs.len()),
+        subtitle: format!(
+            "{}; dataset {}, on {}",
+            first.names().outputs.join(", "),
+            first.dataset_hash,
+            first.machine
+        ),
+        gpu: first.gpu.clone(),
+        costs: TRACE_COSTS.to_vec(),
+        groups: groups(runs),
+    };
+    let html = page::comparison(&comparison);
+    replace_file(path, html.as_bytes()).map_err(|error| Failure::unwritable(path, error))?;
+    Ok(html.len())
+}
+
+/// Errors and cycles must be of the same data and GPU.
+fn check_comparable(
+    folders: &[PathBuf],
+    runs: &[(Run, ComparedRun)],
+    first: &Run,
+) -> Result<(), Failure> {
+    for (folder, (run, _)) in folders.iter().zip(runs) {
+        let what = [
+            ("data", run.dataset_hash == first.dataset_hash),
+            ("scene", run.scene == first.scene),
+            ("outputs", run.outputs == first.outputs),
+            ("GPU profile", run.gpu == first.gpu),
+        ];
+        if let Some((what, _)) = what.iter().find(|(_, same)| !same) {
+            let (folder, first) = (folder.display(), folders[0].display());
+            return Err(Failure::new(
+                Exit::Input,
+                anyhow::anyhow!(
+                    "{folder}: of another {what} than {first}; compare runs of one search problem"
+                ),
+            ));
+        }
+    }
+    Ok(())
+}
+
+/// Runs that differ only in their seeds together, called by what tells them from the others.
+fn groups(runs: Vec<(Run, ComparedRun)>) -> Vec<Group> {
+    let kinds: Vec<Vec<(&str, String)>> = runs.iter().map(|(run, _)| traits(run)).collect();
+    let told_apart: Vec<usize> =
+        (0..kinds[0].len()).filter(|&i| kinds.iter().any(|kind| kind[i] != kinds[0][i])).collect();
+    let mut groups: Vec<(Vec<(&str, String)>, Group)> = Vec::new();
+    for ((_, compared), kind) in runs.into_iter().zip(kinds) {
+        match groups.iter_mut().find(|(known, _)| *known == kind) {
+            Some((_, group)) => group.runs.push(compared),
+            None => {
+                let parts = told_apart.iter().map(|&i| format!("{} {}", kind[i].0, kind[i].1));
+                let label = parts.collect::<Vec<_>>().join(", ");
+                let label = if label.is_empty() { "all".to_owned() } else { label };
+                groups.push((kind, Group { label, runs: vec![compared] }));
+            }
+        }
+    }
+    groups.into_iter().map(|(_, group)| group).collect()
+}
+
+/// What decides how a run goes, but for its seed.
+fn traits(run: &Run) -> Vec<(&'static str, String)> {
+    let settings = &run.settings;
+    let inputs: Vec<&str> = run.inputs.iter().map(|input| input.name.as_str()).collect();
+    let enumerated = run.enumeration.map_or(0.0, |enumeration| enumeration.cost);
+    vec![
+        ("grammar", run.grammar.clone()),
+        ("loss", settings.measure.to_string()),
+        ("inputs", inputs.join(" ")),
+        ("max. cycles", settings.max_cost.to_string()),
+        ("islands", settings.islands.to_string()),
+        ("candidates", settings.candidates.to_string()),
+        ("bucket", settings.bucket_size.to_string()),
+        ("exhaustive", enumerated.to_string()),
+        ("requirements", format!("{:?}", settings.requirements)),
+        ("transforms", format!("{:?}", settings.transforms)),
+        ("searches merged", run.sources.len().to_string()),
+        ("lgp", run.version.clone()),
+    ]
+}

@@ -1,0 +1,204 @@
+//! What the page of a run's folder shows.
+
+use super::Gathered;
+use super::timing::{self, Timing};
+use crate::cli::{Failure, run_folder};
+use crate::cost::Profile;
+use crate::dataset::Dataset;
+use crate::emit::{self, Language, Snippet};
+use crate::eval::OutputError;
+use crate::report::page::{self, Axis, Code, Formula, Page, PageFront, PageSpheres, Table, Trace};
+use crate::report::table::Published;
+use crate::search::{Front, FrontMember, RecordError, Run};
+use std::path::Path;
+
+/// The page, and the trace that it shows.
+pub(super) fn page(gathered: &Gathered, folder: &Path) -> Result<(Page, Option<Trace>), Failure> {
+    let Gathered { run, front, minimax, dataset, published } = gathered;
+    let (profiles, own) = profiles(run)?;
+    let timings = timing::load(folder)?;
+    let priced = Priced { run, profiles: &profiles, timings: &timings };
+    let names = run.names();
+    let outputs = names.outputs.len();
+    let trace = trace(folder)?;
+    let page = Page {
+        title: format!("{}: {}", run.name, names.outputs.join(", ")),
+        facts: facts(run, dataset.as_ref()),
+        command: run.command.iter().map(|word| quoted(word)).collect::<Vec<_>>().join(" "),
+        inputs: run.inputs.clone(),
+        outputs: run.outputs.clone(),
+        profiles: profiles.iter().map(cycles).chain(timings.iter().map(nanoseconds)).collect(),
+        profile: own,
+        fronts: vec![priced.front("rmse", front), priced.front("max", minimax)],
+        published: published.iter().map(|known| priced.published(known)).collect(),
+        lookup_tables: dataset
+            .as_ref()
+            .map(|data| page::lookup_tables(&data.search, outputs))
+            .unwrap_or_default(),
+        samples: dataset.as_ref().map(|data| Table::of(&data.search, data.inputs.len())),
+        trace: trace.clone(),
+        spheres: dataset.as_ref().and_then(PageSpheres::of),
+        languages: Language::ALL.iter().map(|language| language.name()).collect(),
+    };
+    Ok((page, trace))
+}
+
+/// The GPUs that come with the program and that of the run, and its place among them.
+fn profiles(run: &Run) -> Result<(Vec<Profile>, usize), Failure> {
+    let mut profiles = Profile::built_in().map(Profile::find).collect::<Result<Vec<_>, _>>()?;
+    let own = profiles.iter().position(|profile| profile.name == run.gpu);
+    let own = match (own, Profile::find(&run.gpu)) {
+        (Some(own), _) => own,
+        (None, Ok(profile)) => {
+            profiles.push(profile);
+            profiles.len() - 1
+        }
+        // The file of a profile that is no longer there.
+        (None, Err(_)) => 0,
+    };
+    Ok((profiles, own))
+}
+
+fn cycles(profile: &Profile) -> Axis {
+    let (name, description) = (profile.name.clone(), profile.description.clone());
+    Axis { name, description, unit: "cycles" }
+}
+
+fn nanoseconds(timing: &Timing) -> Axis {
+    let (name, description) = (timing.device.clone(), timing.method.clone());
+    Axis { name, description, unit: "ns an evaluation" }
+}
+
+/// What formulas are priced by.
+struct Priced<'a> {
+    run: &'a Run,
+    profiles: &'a [Profile],
+    timings: &'a [Timing],
+}
+
+impl Priced<'_> {
+    fn front(&self, measure: &'static str, front: &Front) -> PageFront {
+        let knee = front.knee().and_then(|knee| front.members.iter().position(|m| m == knee));
+        PageFront {
+            measure,
+            title: if measure == "max" { "maximum error" } else { "RMSE" }.to_owned(),
+            option: if measure == "max" { "--minimax" } else { "" },
+            members: front.members.iter().map(|member| self.member(member)).collect(),
+            knee: knee.unwrap_or(0),
+        }
+    }
+
+    fn member(&self, member: &FrontMember) -> Formula {
+        let text = |&language: &Language| run_folder::snippet(self.run, member, language);
+        let texts: Vec<String> = Language::ALL.iter().map(text).collect();
+        // The comment lines that all languages have, after the first language's.
+        let header: Vec<String> = texts[0]
+            .lines()
+            .map_while(|line| line.strip_prefix("//"))
+            .map(|line| line.strip_prefix(' ').unwrap_or(line).to_owned())
+            .collect();
+        Formula {
+            code: texts.iter().map(|text| Code::of(text, &header)).collect(),
+            header,
+            verdict: serde_json::to_value(&member.verdict).expect("plain data"),
+            ..self.formula(member)
+        }
+    }
+
+    fn published(&self, known: &Published) -> Formula {
+        let (names, program) = (self.run.names(), &known.member.program);
+        let snippet = Snippet { program, names: &names, function: &self.run.name, header: &[] };
+        let body =
+            |&language: &Language| Code { comment: None, body: emit::emit(language, &snippet) };
+        Formula {
+            name: Some(known.name.clone()),
+            code: Language::ALL.iter().map(body).collect(),
+            ..self.formula(&known.member)
+        }
+    }
+
+    fn formula(&self, member: &FrontMember) -> Formula {
+        let (names, program) = (self.run.names(), &member.program);
+        let snippet = Snippet { program, names: &names, function: &self.run.name, header: &[] };
+        let costs: Vec<_> = self.profiles.iter().map(|profile| profile.cost(program)).collect();
+        let measured = self.timings.iter().map(|timing| timing.of(&member.formula));
+        let both = |error: &OutputError| [error.rmse, error.max];
+        Formula {
+            name: None,
+            costs: costs.iter().map(|cost| Some(cost.cycles)).chain(measured).collect(),
+            registers: costs.iter().map(|cost| Some(cost.registers)).collect(),
+            errors: member.score.search.iter().map(both).collect(),
+            error: both(&member.search_error()),
+            validation: both(&member.validation_error()),
+            verdict: serde_json::Value::Null,
+            formula: member.formula.clone(),
+            header: Vec::new(),
+            code: Vec::new(),
+            mathml: emit::mathml(&snippet),
+            script: emit::javascript(&snippet),
+        }
+    }
+}
+
+/// How the search went on, if that was recorded.
+pub(super) fn trace(folder: &Path) -> Result<Option<Trace>, Failure> {
+    let path = folder.join("trace.csv");
+    if !path.exists() {
+        return Ok(None);
+    }
+    let text = std::fs::read_to_string(&path)
+        .map_err(|reason| RecordError::Unreadable { path: path.clone(), reason })?;
+    let damaged = |(line, reason)| RecordError::Damaged { path: path.clone(), line, reason };
+    Ok(Some(Trace::parse(&text).map_err(damaged)?))
+}
+
+fn facts(run: &Run, dataset: Option<&Dataset>) -> Vec<(String, String)> {
+    let mut facts =
+        vec![("dataset".to_owned(), format!("{}, hash {}", run.name, run.dataset_hash))];
+    let mut fact = |name: &str, value: String| facts.push((name.to_owned(), value));
+    if let Some(dataset) = dataset {
+        fact("made by", dataset.recipe.clone());
+        let rows = [dataset.search.rows(), dataset.validation.rows()];
+        fact("samples", format!("{} to search on, {} to validate", rows[0], rows[1]));
+    }
+    if let Some(scene) = &run.scene {
+        fact("scene", format!("{}: {}", scene.name, scene.summary()));
+    }
+    fact("domain", run_folder::domains(&run.inputs));
+    fact("grammar, GPU", format!("{}, {}", run.grammar, run.gpu));
+    fact("seed", run_folder::seeds(run));
+    fact("error made small", run.settings.measure.to_string());
+    fact("search", format!("{} generations in {:.1} s", run.generations, run.seconds));
+    let counts = [run.counts.considered, run.counts.seen, run.counts.fitted, run.counts.admitted];
+    fact(
+        "candidates",
+        format!(
+            "{} considered; {} of a structure seen before; {} fitted; {} admitted",
+            counts[0], counts[1], counts[2], counts[3]
+        ),
+    );
+    fact("machine", format!("{}; {} threads", run.machine, run.threads));
+    fact("lgp", run.version.clone());
+    facts
+}
+
+/// A word as a shell takes it.
+fn quoted(word: &str) -> String {
+    let plain = |c: char| c.is_ascii_alphanumeric() || "-_./=,:+@%".contains(c);
+    match !word.is_empty() && word.chars().all(plain) {
+        true => word.to_owned(),
+        false => format!("'{}'", word.replace('\'', r"'\''")),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::quoted;
+
+    #[test]
+    fn words_are_quoted_where_a_shell_would_take_them_apart() {
+        assert_eq!(quoted("--outputs=a,b"), "--outputs=a,b");
+        assert_eq!(quoted("b = x*y"), "'b = x*y'");
+        assert_eq!(quoted("it's"), r"'it'\''s'");
+    }
+}

@@ -1,0 +1,157 @@
+//! `lgp report`: the page and the pictures of a run.
+
+mod compare;
+mod content;
+mod pictures;
+mod timing;
+
+use super::run_folder::{self, Which};
+use super::subject::Subject;
+use super::{Common, Exit, Failure, front};
+use crate::dataset::{Dataset, replace_file};
+use crate::report::page;
+use crate::report::table::Published;
+use crate::search::{Front, Run};
+use crate::stability::Questions;
+use serde::Serialize;
+use std::path::{Path, PathBuf};
+
+const FILE: &str = "report.html";
+
+/// Make the page of a run: its front to click through, code to copy, error maps
+///
+/// Writes report.html into the folder, one file that needs no network, and pictures beside it. The same
+/// folder and dataset give the same bytes.
+#[derive(clap::Args)]
+pub struct Args {
+    /// A folder that `lgp search` or `lgp merge` wrote; several are compared, those that differ only in
+    /// their seeds as one
+    #[arg(required = true)]
+    runs: Vec<PathBuf>,
+    /// Where a comparison is written [default: comparison.html]
+    #[arg(long, short, value_name = "FILE")]
+    output: Option<PathBuf>,
+    /// The dataset, if it is not where the run found it
+    #[arg(long, value_name = "FILE")]
+    dataset: Option<PathBuf>,
+    /// Measure first what an evaluation takes on this processor, and keep it in the folder
+    #[arg(long)]
+    measure: bool,
+}
+
+#[derive(Serialize)]
+struct Written {
+    page: PathBuf,
+    bytes: usize,
+}
+
+/// A run's folder, read.
+struct Gathered {
+    run: Run,
+    front: Front,
+    minimax: Front,
+    /// The run's columns, if the data are still what they were.
+    dataset: Option<Dataset>,
+    published: Vec<Published>,
+}
+
+pub fn run(args: &Args, common: &Common) -> Result<(), Failure> {
+    let (page, bytes) = match args.runs.as_slice() {
+        [folder] if args.output.is_some() => {
+            let folder = folder.display();
+            return Err(Failure::usage(format!(
+                "--output is for comparisons; the page of one run is {folder}/{FILE}"
+            )));
+        }
+        [folder] => {
+            let gathered = gather(folder, args.dataset.as_deref(), common)?;
+            if args.measure {
+                timing::measure(&gathered, folder)?;
+            }
+            (folder.join(FILE), write_all(&gathered, folder)?)
+        }
+        folders => {
+            let page = args.output.clone().unwrap_or_else(|| PathBuf::from("comparison.html"));
+            let bytes = compare::write(folders, &page)?;
+            (page, bytes)
+        }
+    };
+    let text = format!("{}: {:.1} MB", page.display(), bytes as f64 / 1e6);
+    common.summary(&Written { page, bytes }, &text)
+}
+
+/// Writes the page and the pictures of a run's folder.
+pub(super) fn write(folder: &Path, common: &Common) -> Result<(), Failure> {
+    write_all(&gather(folder, None, common)?, folder).map(drop)
+}
+
+/// Gives the bytes of the page.
+fn write_all(gathered: &Gathered, folder: &Path) -> Result<usize, Failure> {
+    let (page, trace) = content::page(gathered, folder)?;
+    let html = page::html(&page);
+    pictures::write(gathered, trace.as_ref(), folder)?;
+    write_file(folder, FILE, html.as_bytes())?;
+    Ok(html.len())
+}
+
+fn write_file(folder: &Path, name: &str, bytes: &[u8]) -> Result<(), Failure> {
+    let path = folder.join(name);
+    replace_file(&path, bytes).map_err(|error| Failure::unwritable(&path, error))
+}
+
+fn gather(folder: &Path, elsewhere: Option<&Path>, common: &Common) -> Result<Gathered, Failure> {
+    check_whole(folder)?;
+    let (mut run, mut front) = run_folder::load(folder, Which { minimax: false })?;
+    let (_, mut minimax) = run_folder::load(folder, Which { minimax: true })?;
+    // As `lgp emit` does, so that its code and the page's are the same.
+    let questions = Questions::of(&run.inputs, &run.outputs);
+    for front in [&mut front, &mut minimax] {
+        front.judge(&questions, &run.names());
+    }
+    if let Some(path) = elsewhere {
+        run.dataset = path.to_owned();
+    }
+    let dataset = match dataset(&run) {
+        Ok(dataset) => Some(dataset),
+        Err(problem) if elsewhere.is_some() => {
+            return Err(Failure::new(Exit::Input, anyhow::Error::msg(problem)));
+        }
+        Err(problem) => {
+            if !common.quiet {
+                eprintln!("{problem}\nthe page has no maps; --dataset says where the data are");
+            }
+            None
+        }
+    };
+    let known = dataset.as_ref().and_then(|_| front::incumbents(&run));
+    Ok(Gathered { run, front, minimax, dataset, published: known.unwrap_or_default() })
+}
+
+/// `run.ron` is written last: without it a search has not ended.
+fn check_whole(folder: &Path) -> Result<(), Failure> {
+    if !folder.is_dir() || folder.join("run.ron").exists() {
+        return Ok(());
+    }
+    let begun = ["checkpoint.bin", "front.json"].iter().any(|file| folder.join(file).exists());
+    let reason = match begun {
+        true => {
+            "the search in it was killed or has not ended; go on with it by `lgp search … --resume`"
+        }
+        false => "give a folder that `lgp search` or `lgp merge` wrote",
+    };
+    let folder = folder.display();
+    Err(Failure::new(Exit::Input, anyhow::anyhow!("{folder}: holds no run.ron: {reason}")))
+}
+
+/// The run's columns of its dataset, if that is still what it was; if not, what is wrong.
+pub(super) fn dataset(run: &Run) -> Result<Dataset, String> {
+    let whole = Dataset::load(&run.dataset).map_err(|error| error.to_string())?;
+    if whole.hash() != run.dataset_hash {
+        let path = run.dataset.display();
+        return Err(format!("{path}: not the data that the run was made with, by its hash"));
+    }
+    let names = run.names();
+    let choose = |dataset: &Dataset| Ok(dataset.select(Some(&names.inputs), Some(&names.outputs))?);
+    let subject = Subject::new(whole, run.scene.clone(), choose);
+    subject.map(|subject| subject.dataset).map_err(|failure| failure.error.to_string())
+}

@@ -1,0 +1,121 @@
+//! The pictures beside a page: the front, maps, spheres, how the search went on.
+
+use super::{Gathered, write_file};
+use crate::cli::render::{Drawing, ROUGHNESSES, SIZE};
+use crate::cli::{Exit, Failure, run_folder};
+use crate::dataset::Dataset;
+use crate::eval::{Evaluator, Samples, Tape};
+use crate::program::Program;
+use crate::report::maps::{self, Maps, OutputMaps, Plane};
+use crate::report::page::Trace;
+use crate::report::plot::{self, Line, LinePlot, PlotError, Theme};
+use crate::report::spheres::{Environment, View};
+use crate::report::table::{Published, cycles_text, error_text};
+use crate::search::FrontMember;
+use std::path::Path;
+
+/// Pixels.
+const WIDTH: u32 = 1600;
+
+pub(super) fn write(
+    gathered: &Gathered,
+    trace: Option<&Trace>,
+    folder: &Path,
+) -> Result<(), Failure> {
+    let Gathered { run, front, dataset, published, .. } = gathered;
+    run_folder::write_plots(folder, run, front, published)?;
+    if let Some(trace) = trace.filter(|trace| trace.seconds.len() > 1) {
+        write_convergence(gathered, trace, folder)?;
+    }
+    let (Some(dataset), Some(knee)) = (dataset, front.knee()) else { return Ok(()) };
+    if let Some(maps) = maps(gathered, dataset, knee) {
+        for (file, theme) in [("maps.png", Theme::Light), ("maps-dark.png", Theme::Dark)] {
+            write_file(folder, file, &maps::picture(&maps, theme).map_err(failed)?)?;
+        }
+    }
+    let drawing = Drawing {
+        run,
+        dataset,
+        environment: Environment::default(),
+        view: View::default(),
+        roughness: &ROUGHNESSES,
+        size: SIZE.into(),
+    };
+    let name = format!("formula, {} cycles on {}", cycles_text(knee.cost), run.gpu);
+    // Most columns have no scene.
+    if let Ok((png, _)) = drawing.png(&knee.program, &name, Some(Theme::Light)) {
+        write_file(folder, "spheres.png", &png)?;
+    }
+    Ok(())
+}
+
+fn failed(error: PlotError) -> Failure {
+    Failure::new(Exit::Failed, error)
+}
+
+fn write_convergence(gathered: &Gathered, trace: &Trace, folder: &Path) -> Result<(), Failure> {
+    let line = |(cost, errors): (&f64, &Vec<f64>)| Line {
+        name: format!("≤ {cost} cycles"),
+        points: trace.seconds.iter().copied().zip(errors.iter().copied()).collect(),
+        bounds: Vec::new(),
+    };
+    // As many as there are colours to tell them by.
+    let every = trace.costs.len().div_ceil(7).max(1);
+    let lines: Vec<Line> = trace.costs.iter().zip(&trace.errors).step_by(every).map(line).collect();
+    let run = &gathered.run;
+    let plot = LinePlot {
+        title: &format!("{}: how the search went on", run.name),
+        subtitle: &format!("{} · {}", run_folder::seeds(run), run.machine),
+        x_label: "seconds",
+        y_label: "RMSE on the search split, before polishing",
+        lines: &lines,
+        theme: Theme::Light,
+    };
+    write_file(folder, "convergence.png", &plot::lines_png(&plot, WIDTH).map_err(failed)?)?;
+    write_file(folder, "convergence.svg", plot::lines_svg(&plot).map_err(failed)?.as_bytes())?;
+    let dark = LinePlot { theme: Theme::Dark, ..plot };
+    let dark = plot::lines_svg(&dark).map_err(failed)?;
+    write_file(folder, "convergence-dark.svg", dark.as_bytes())
+}
+
+/// The most accurate of the published formulas, the knee, and the truth.
+fn maps(gathered: &Gathered, dataset: &Dataset, knee: &FrontMember) -> Option<Maps> {
+    let plane = Plane::of(&dataset.search)?;
+    let inputs = dataset.inputs.len();
+    let rmse = |known: &&Published| known.member.search_error().rmse;
+    let finite = gathered.published.iter().filter(|known| rmse(known).is_finite());
+    let best = finite.min_by(|a, b| rmse(a).total_cmp(&rmse(b)));
+    let described = |name: &str, member: &FrontMember| {
+        let (cycles, error) = (cycles_text(member.cost), error_text(member.search_error().rmse));
+        [name.to_owned(), format!("{cycles} cycles, RMSE {error}")]
+    };
+    let shown: Vec<([String; 2], &FrontMember)> = best
+        .map(|known| (described(&known.name, &known.member), &known.member))
+        .into_iter()
+        .chain([(described("found", knee), knee)])
+        .collect();
+    let samples = Samples::new(&dataset.search, inputs);
+    let values = |program: &Program| Evaluator::default().outputs(&Tape::new(program), &samples);
+    let made: Vec<Vec<Vec<f32>>> = shown.iter().map(|(_, one)| values(&one.program)).collect();
+    let output = |(o, column): (usize, &crate::dataset::Column)| OutputMaps {
+        name: column.name.clone(),
+        columns: made
+            .iter()
+            .map(|values| &values[o])
+            .chain([&dataset.search.columns[inputs + o]])
+            .map(|values| plane.column(values))
+            .collect(),
+    };
+    let axes = maps::axes(dataset);
+    Some(Maps {
+        title: format!("{}: formulas and the truth", gathered.run.name),
+        subtitle: format!("{axes}; cycles on {}, RMSE over all outputs", gathered.run.gpu),
+        columns: shown
+            .iter()
+            .map(|(lines, _)| lines.clone())
+            .chain([["truth".to_owned(), String::new()]])
+            .collect(),
+        outputs: dataset.outputs.iter().enumerate().map(output).collect(),
+        plane,
+    })
+}

@@ -1,0 +1,91 @@
+//! What an evaluation takes on a processor, measured once and kept beside the run: the page is made
+//! of what is kept, so that it stays the same.
+
+use super::{Gathered, write_file};
+use crate::cli::{Exit, Failure};
+use crate::eval::{Evaluator, Isa, Samples, Tape};
+use crate::program::Program;
+use crate::search::RecordError;
+use serde::{Deserialize, Serialize};
+use std::collections::BTreeMap;
+use std::path::Path;
+use std::time::{Duration, Instant};
+
+const FILE: &str = "timing.json";
+
+/// Spent on each formula.
+const SPENT: Duration = Duration::from_millis(30);
+
+/// Nanoseconds that an evaluation takes on a device, by formula text.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub(super) struct Timing {
+    pub device: String,
+    /// How it was measured.
+    pub method: String,
+    pub ns: BTreeMap<String, f64>,
+}
+
+impl Timing {
+    pub(super) fn of(&self, formula: &str) -> Option<f64> {
+        self.ns.get(formula).copied()
+    }
+}
+
+/// Measures all formulas on this processor, by the interpreter on one thread, and writes the file;
+/// what it holds of other devices stays.
+pub(super) fn measure(gathered: &Gathered, folder: &Path) -> Result<(), Failure> {
+    let Some(dataset) = &gathered.dataset else {
+        let message =
+            "--measure evaluates on the dataset, which is not there; --dataset says where";
+        return Err(Failure::new(Exit::Input, anyhow::Error::msg(message)));
+    };
+    let samples = Samples::new(&dataset.search, dataset.inputs.len());
+    let mut evaluator = Evaluator::default();
+    let members = gathered.front.members.iter().chain(&gathered.minimax.members);
+    let all = members.chain(gathered.published.iter().map(|known| &known.member));
+    let timing = Timing {
+        device: format!("CPU, {}", Isa::best()),
+        method: "the interpreter on one thread, the shortest of many runs over the search split"
+            .to_owned(),
+        ns: all
+            .map(|member| {
+                let ns = nanoseconds(&member.program, &samples, &mut evaluator);
+                // Four digits, which is more than is known.
+                (member.formula.clone(), format!("{ns:.3e}").parse().unwrap_or(ns))
+            })
+            .collect(),
+    };
+    let mut timings = load(folder)?;
+    timings.retain(|known| known.device != timing.device);
+    timings.push(timing);
+    let text = serde_json::to_string_pretty(&timings).expect("plain data") + "\n";
+    write_file(folder, FILE, text.as_bytes())
+}
+
+fn nanoseconds(program: &Program, samples: &Samples, evaluator: &mut Evaluator) -> f64 {
+    let tape = Tape::new(program);
+    let mut values = crate::eval::Values::default();
+    let (begun, mut shortest) = (Instant::now(), f64::INFINITY);
+    while begun.elapsed() < SPENT {
+        let start = Instant::now();
+        evaluator.outputs_into(&tape, samples, &mut values);
+        shortest = shortest.min(start.elapsed().as_secs_f64());
+    }
+    1e9 * shortest / samples.rows() as f64
+}
+
+/// What was measured before; nothing where there is no file.
+pub(super) fn load(folder: &Path) -> Result<Vec<Timing>, Failure> {
+    let path = folder.join(FILE);
+    if !path.exists() {
+        return Ok(Vec::new());
+    }
+    let text = std::fs::read_to_string(&path)
+        .map_err(|reason| RecordError::Unreadable { path: path.clone(), reason })?;
+    let damaged = |error: serde_json::Error| RecordError::Damaged {
+        path,
+        line: error.line(),
+        reason: error.to_string(),
+    };
+    Ok(serde_json::from_str(&text).map_err(damaged)?)
+}

@@ -1,0 +1,58 @@
+//! Runs of one dataset beside each other.
+
+use super::{STYLE, Trace, rendered, within_script};
+use minijinja::{Value, context};
+use serde::Serialize;
+
+/// What a page of several runs shows.
+#[derive(Clone, Debug, Serialize)]
+pub struct Comparison {
+    pub title: String,
+    #[serde(skip)]
+    pub subtitle: String,
+    /// The profile that costs are of.
+    pub gpu: String,
+    /// Cycles at which errors are listed.
+    pub costs: Vec<f64>,
+    pub groups: Vec<Group>,
+}
+
+/// Runs that differ in nothing but their seeds.
+#[derive(Clone, Debug, Serialize)]
+pub struct Group {
+    pub label: String,
+    pub runs: Vec<ComparedRun>,
+}
+
+/// A run among others.
+#[derive(Clone, Debug, Serialize)]
+pub struct ComparedRun {
+    pub seconds: f64,
+    pub considered: u64,
+    /// Cost, RMSE and maximum error of each member.
+    pub front: Vec<[f64; 3]>,
+    pub trace: Option<Trace>,
+}
+
+const TEMPLATE: &str = include_str!("compare.html");
+const SCRIPTS: [&str; 3] = [
+    include_str!("script/elements.js"),
+    include_str!("script/chart.js"),
+    include_str!("script/compare.js"),
+];
+
+/// The comparison as HTML.
+pub fn comparison(comparison: &Comparison) -> String {
+    let data = serde_json::to_string(comparison).expect("plain data");
+    let safe = Value::from_safe_string;
+    rendered(
+        TEMPLATE,
+        context! {
+            title => &comparison.title,
+            subtitle => &comparison.subtitle,
+            style => safe(STYLE.to_owned()),
+            data => safe(within_script(&data)),
+            script => safe(SCRIPTS.concat()),
+        },
+    )
+}

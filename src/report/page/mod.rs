@@ -1,0 +1,199 @@
+//! The page of a run: one file of HTML that needs nothing else, no network either.
+//!
+//! What can be computed is: the page holds the samples and each formula as JavaScript in f32
+//! arithmetic ([`crate::emit::javascript`]), and makes maps, profiles and histograms of them when
+//! they are looked at. It depends on what it is given alone: no clock, no random number.
+
+mod compare;
+mod lookup;
+mod samples;
+mod spheres;
+mod trace;
+
+pub use compare::{ComparedRun, Comparison, Group, comparison};
+pub use lookup::{LookupTable, lookup_tables};
+pub use samples::Table;
+pub use spheres::PageSpheres;
+pub use trace::Trace;
+
+use crate::dataset::Column;
+use minijinja::{Environment, Value, context};
+use serde::Serialize;
+
+/// What a page shows.
+#[derive(Clone, Debug, Serialize)]
+pub struct Page {
+    pub title: String,
+    /// Lines about the run: what, and its value.
+    #[serde(skip)]
+    pub facts: Vec<(String, String)>,
+    /// The command line that makes the run again.
+    #[serde(skip)]
+    pub command: String,
+    pub inputs: Vec<Column>,
+    pub outputs: Vec<Column>,
+    pub profiles: Vec<Axis>,
+    /// The place of the run's own profile in `profiles`.
+    pub profile: usize,
+    pub fronts: Vec<PageFront>,
+    /// Published formulas.
+    pub published: Vec<Formula>,
+    pub lookup_tables: Vec<LookupTable>,
+    /// The search split; none if the dataset is no longer there.
+    pub samples: Option<Table>,
+    pub trace: Option<Trace>,
+    pub spheres: Option<PageSpheres>,
+    pub languages: Vec<&'static str>,
+}
+
+/// What a formula may cost, on an axis of the plot: cycles on a GPU, or nanoseconds measured.
+#[derive(Clone, Debug, Serialize)]
+pub struct Axis {
+    pub name: String,
+    pub description: String,
+    pub unit: &'static str,
+}
+
+/// A front, and the measure that it is of.
+#[derive(Clone, Debug, Serialize)]
+pub struct PageFront {
+    /// `rmse` or `max`.
+    pub measure: &'static str,
+    pub title: String,
+    /// What `lgp emit` and `lgp front` are told to take it.
+    pub option: &'static str,
+    pub members: Vec<Formula>,
+    /// The place of the member to begin with.
+    pub knee: usize,
+}
+
+/// A formula of a front, or a published one.
+#[derive(Clone, Debug, Serialize)]
+pub struct Formula {
+    /// Of a published formula.
+    pub name: Option<String>,
+    /// By profile; null where it was not measured.
+    pub costs: Vec<Option<f64>>,
+    pub registers: Vec<Option<u32>>,
+    /// RMSE and maximum, by output, on the search split.
+    pub errors: Vec<[f64; 2]>,
+    /// Over all outputs.
+    pub error: [f64; 2],
+    pub validation: [f64; 2],
+    /// As `front.json` has it; null of published formulas.
+    pub verdict: serde_json::Value,
+    pub formula: String,
+    /// Lines of the comment above each function.
+    pub header: Vec<String>,
+    /// By language.
+    pub code: Vec<Code>,
+    pub mathml: String,
+    /// A function in JavaScript.
+    #[serde(skip)]
+    pub script: String,
+}
+
+/// A function in some language: `comment` before each line of the header, and then the body.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Code {
+    /// Null where the header is in the body.
+    pub comment: Option<String>,
+    pub body: String,
+}
+
+impl Code {
+    /// `text` without the lines of the header, where it begins with them as comments.
+    pub fn of(text: &str, header: &[String]) -> Code {
+        let whole = || Code { comment: None, body: text.to_owned() };
+        let Some((comment, _)) = text.split_once(' ') else { return whole() };
+        let mut body = text;
+        for line in header {
+            let commented = format!("{comment} {line}");
+            match body.split_once('\n') {
+                Some((first, rest)) if first == commented.trim_end() => body = rest,
+                _ => return whole(),
+            }
+        }
+        Code { comment: Some(comment.to_owned()), body: body.to_owned() }
+    }
+}
+
+const TEMPLATE: &str = include_str!("page.html");
+const STYLE: &str = include_str!("page.css");
+/// In order: each uses what is above it.
+const SCRIPTS: [&str; 10] = [
+    include_str!("script/elements.js"),
+    include_str!("script/base.js"),
+    include_str!("script/chart.js"),
+    include_str!("script/samples.js"),
+    include_str!("script/front.js"),
+    include_str!("script/formula.js"),
+    include_str!("script/maps.js"),
+    include_str!("script/curves.js"),
+    include_str!("script/spheres.js"),
+    include_str!("script/main.js"),
+];
+
+/// The page as HTML.
+pub fn html(page: &Page) -> String {
+    let data = serde_json::to_string(page).expect("plain data");
+    let safe = Value::from_safe_string;
+    let facts = page.facts.iter().map(|(name, value)| vec![name.clone(), value.clone()]);
+    rendered(
+        TEMPLATE,
+        context! {
+            title => &page.title,
+            command => &page.command,
+            facts => facts.collect::<Vec<_>>(),
+            style => safe(STYLE.to_owned()),
+            data => safe(within_script(&data)),
+            functions => safe(functions(page)),
+            script => safe(SCRIPTS.concat()),
+        },
+    )
+}
+
+fn rendered(template: &str, values: Value) -> String {
+    let mut environment = Environment::new();
+    environment.add_template("page.html", template).expect("the templates are part of the program");
+    let template = environment.get_template("page.html").expect("it was just added");
+    template.render(values).expect("the templates only write what they are given")
+}
+
+/// JSON in which nothing ends a `<script>`.
+fn within_script(json: &str) -> String {
+    json.replace('<', "\\u003c").replace('\u{2028}', "\\u2028").replace('\u{2029}', "\\u2029")
+}
+
+/// An array of functions for each front, and one for the published formulas.
+fn functions(page: &Page) -> String {
+    let listed = |formulas: &[Formula]| {
+        let scripts: Vec<&str> = formulas.iter().map(|formula| formula.script.as_str()).collect();
+        format!("[{}]", scripts.join(","))
+    };
+    let fronts: Vec<String> = page.fronts.iter().map(|front| listed(&front.members)).collect();
+    format!(
+        "const f32 = Math.fround;\nconst FUNCTIONS = {{fronts: [{}], published: {}}};",
+        fronts.join(",\n"),
+        listed(&page.published)
+    )
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_header_is_kept_once() {
+        let header = ["a → b".to_owned(), String::new()];
+        let code = Code::of("// a → b\n//\nfloat f();\n", &header);
+        assert_eq!(code, Code { comment: Some("//".into()), body: "float f();\n".into() });
+        let other = Code::of("# something else\n", &header);
+        assert_eq!(other, Code { comment: None, body: "# something else\n".into() });
+    }
+
+    #[test]
+    fn no_data_ends_its_script() {
+        assert_eq!(within_script("[\"</script>\"]"), "[\"\\u003c/script>\"]");
+    }
+}

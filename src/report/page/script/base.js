@@ -1,0 +1,26 @@
+// What is shown.
+
+/** What is looked at: `published` in place of a member of the front if it is set. */
+const state = {
+  axis: data.profile, front: 0, published: false, index: data.fronts[0].knee,
+  language: 0, logarithmic: false, sort: { column: "cost", descending: false },
+  x: 0, y: Math.min(1, data.inputs.length - 1), at: data.inputs.map(() => 0.5), time: "seconds",
+};
+
+const front = () => data.fronts[state.front];
+const formulas = () => (state.published ? data.published : front().members);
+const formula = () => formulas()[state.index];
+const script = () => (state.published ? FUNCTIONS.published : FUNCTIONS.fronts[state.front])[state.index];
+const measure = () => (front().measure === "max" ? 1 : 0);
+const measureTitle = () => front().title;
+const axis = () => data.profiles[state.axis];
+const nameOf = (one, i) => one.name ?? `formula ${i + 1}`;
+
+/** Those that show something call this with how they show it. */
+const views = [];
+function show() { for (const view of views) view(); }
+function select(published, index) {
+  if (!(published ? data.published : front().members)[index]) return;
+  Object.assign(state, { published, index });
+  show();
+}

@@ -1,0 +1,50 @@
+//! The spheres of a page: what its shader is made of.
+
+use crate::dataset::Dataset;
+use crate::report::spheres::{DIFFERENCE_TIMES, Environment, RADIUS, SphereTable, Spheres, View};
+use serde::Serialize;
+
+/// All of the shader but the formula.
+#[derive(Clone, Debug, Serialize)]
+pub struct PageSpheres {
+    environments: Vec<Surroundings>,
+    /// The place of the one to begin with.
+    environment: usize,
+    table: SphereTable,
+    view: View,
+    uses_f0: bool,
+    radius: f32,
+    difference_times: f32,
+}
+
+#[derive(Clone, Debug, Serialize)]
+struct Surroundings {
+    name: String,
+    given: String,
+    light: String,
+}
+
+impl PageSpheres {
+    /// Nothing if no scene is known for the columns, or the samples are no even grid.
+    pub fn of(dataset: &Dataset) -> Option<PageSpheres> {
+        let Dataset { inputs, outputs, .. } = dataset;
+        let surroundings = |&environment: &Environment| {
+            let [given, light] = Spheres::of(inputs, outputs, environment)?.glsl();
+            Some(Surroundings { name: environment.to_string(), given, light })
+        };
+        let several = Spheres::has_environments(&dataset.names().outputs);
+        let environments = if several { &Environment::ALL[..] } else { &Environment::ALL[..1] };
+        let environments: Vec<_> = environments.iter().filter_map(surroundings).collect();
+        let uses_f0 = Spheres::of(inputs, outputs, Environment::default())?.uses_f0();
+        let usual = Environment::default().to_string();
+        Some(PageSpheres {
+            environment: environments.iter().position(|known| known.name == usual).unwrap_or(0),
+            uses_f0,
+            environments,
+            table: SphereTable::of(dataset)?,
+            view: View::default(),
+            radius: RADIUS,
+            difference_times: DIFFERENCE_TIMES,
+        })
+    }
+}

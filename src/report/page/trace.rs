@@ -1,0 +1,81 @@
+//! How a search went on, from its `trace.csv`.
+
+use serde::Serialize;
+
+/// The columns of a `trace.csv`.
+#[derive(Clone, Debug, Default, PartialEq, Serialize)]
+pub struct Trace {
+    pub seconds: Vec<f64>,
+    pub considered: Vec<f64>,
+    pub hypervolume: Vec<f64>,
+    /// Cycles, rising.
+    pub costs: Vec<f64>,
+    /// By cost, the least RMSE at each moment at that cost or below; infinite where there is none.
+    pub errors: Vec<Vec<f64>>,
+}
+
+impl Trace {
+    /// Reads the text of a `trace.csv`.
+    ///
+    /// # Errors
+    /// The line, and what is wrong with it.
+    pub fn parse(text: &str) -> Result<Trace, (usize, String)> {
+        let mut lines = (1..).zip(text.lines());
+        let names: Vec<&str> =
+            lines.next().map_or(Vec::new(), |(_, line)| line.split(',').collect());
+        let place = |name: &str| {
+            let found = names.iter().position(|known| *known == name);
+            found.ok_or_else(|| (1, format!("there is no column `{name}`")))
+        };
+        let [seconds, considered, hypervolume] =
+            [place("seconds")?, place("considered")?, place("hypervolume")?];
+        let by_cost = names.iter().enumerate().filter_map(|(column, name)| {
+            let cost = name.strip_prefix("rmse_")?.parse::<f64>().ok()?;
+            Some((column, cost))
+        });
+        let by_cost: Vec<(usize, f64)> = by_cost.collect();
+        let mut trace = Trace {
+            costs: by_cost.iter().map(|(_, cost)| *cost).collect(),
+            errors: vec![Vec::new(); by_cost.len()],
+            ..Trace::default()
+        };
+        for (number, line) in lines {
+            let cells: Result<Vec<f64>, _> = line.split(',').map(str::parse::<f64>).collect();
+            let cells = cells.map_err(|error| (number, error.to_string()))?;
+            if cells.len() != names.len() {
+                let (found, expected) = (cells.len(), names.len());
+                return Err((number, format!("{found} cells under a header of {expected}")));
+            }
+            trace.seconds.push(cells[seconds]);
+            trace.considered.push(cells[considered]);
+            trace.hypervolume.push(cells[hypervolume]);
+            for ((column, _), errors) in by_cost.iter().zip(&mut trace.errors) {
+                errors.push(cells[*column]);
+            }
+        }
+        Ok(trace)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn columns_are_found_by_name() {
+        let trace =
+            Trace::parse("seconds,considered,hypervolume,rmse_5,rmse_10\n1,2,3,inf,.5\n").unwrap();
+        assert_eq!((trace.seconds, trace.costs), (vec![1.0], vec![5.0, 10.0]));
+        assert_eq!(trace.errors, [[f64::INFINITY], [0.5]]);
+    }
+
+    #[test]
+    fn what_is_damaged_is_named_with_its_line() {
+        let damaged = |text: &str| Trace::parse(text).unwrap_err();
+        assert_eq!(damaged("").0, 1);
+        assert!(damaged("seconds,considered\n").1.contains("hypervolume"));
+        let header = "seconds,considered,hypervolume\n";
+        assert_eq!(damaged(&format!("{header}1,2,3\n1,2\n")).0, 3);
+        assert_eq!(damaged(&format!("{header}1,x,3\n")).0, 2);
+    }
+}

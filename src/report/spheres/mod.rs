@@ -1,0 +1,209 @@
+//! Spheres shaded with a formula, and with the table that it stands for.
+//!
+//! What a pixel gives to the formula, and what becomes of its outputs, is formula text itself, so that
+//! one source is evaluated here and emitted as GLSL for the page: both draw the same spheres.
+//! Directions: x to the right, y up, z to the viewer, who is far away, so v = (0, 0, 1).
+
+mod picture;
+mod scene;
+mod table;
+
+pub use picture::{Labels, picture};
+pub use scene::Environment;
+pub use table::SphereTable;
+
+use crate::dataset::{Column, Split};
+use crate::emit::{Language, Snippet, emit};
+use crate::eval::{Evaluator, Samples, Tape};
+use crate::program::{Arg, Names, Program, effective};
+use serde::Serialize;
+
+/// What the reader can turn.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct View {
+    /// Perceptual; alpha = roughness².
+    pub roughness: f32,
+    /// Reflectance at normal incidence.
+    pub f0: f32,
+    /// Full angle of a spherical light's cone, in radians.
+    pub omega: f32,
+    /// In stops.
+    pub exposure: f32,
+}
+
+impl Default for View {
+    fn default() -> View {
+        View { roughness: 0.4, f0: 0.5, omega: 0.4, exposure: 0.0 }
+    }
+}
+
+/// What a sphere's material computes.
+#[derive(Clone, Copy, Debug)]
+pub enum Material<'a> {
+    Formula(&'a Program),
+    Table(&'a SphereTable),
+}
+
+/// How spheres are shaded with what a dataset's columns mean.
+#[derive(Clone, Debug)]
+pub struct Spheres {
+    /// From a pixel to the dataset's inputs.
+    given: (Program, Names),
+    /// From a pixel and the dataset's outputs to what is displayed.
+    light: (Program, Names),
+}
+
+/// The radius, where half the width of a picture is 1.
+pub const RADIUS: f32 = 0.94;
+
+impl Spheres {
+    /// Nothing if the columns are none that a scene is known for. Beyond an input's domain its ends
+    /// are taken.
+    pub fn of(inputs: &[Column], outputs: &[Column], environment: Environment) -> Option<Spheres> {
+        let outputs: Vec<String> = outputs.iter().map(|column| column.name.clone()).collect();
+        let given = scene::given(inputs)?;
+        let light = scene::light(&outputs, environment)?;
+        Some(Spheres { given, light })
+    }
+
+    /// Whether what is drawn depends on [`View::f0`].
+    pub fn uses_f0(&self) -> bool {
+        let f0 = Arg::Input(4);
+        [&self.given.0, &self.light.0].into_iter().any(|program| {
+            let program = effective(program);
+            program.instrs.iter().flat_map(|instr| instr.args()).any(|arg| *arg == f0)
+        })
+    }
+
+    /// Whether what is drawn depends on the environment.
+    pub fn has_environments(outputs: &[String]) -> bool {
+        scene::has_environment(outputs)
+    }
+
+    /// The displayed colour, in [0, 1], of each pixel of a square, row by row from the top; outside the
+    /// sphere what the nearest place on its rim has.
+    pub fn shade(&self, material: Material, view: &View, size: usize) -> Vec<[f32; 3]> {
+        let pixels = pixels(size);
+        let constant = |value: f32| vec![value; size * size];
+        let mut columns = pixels.to_vec();
+        columns.extend([view.roughness, view.f0, view.omega, view.exposure].map(constant));
+        let inputs = values(&self.given.0, columns.clone());
+        columns.extend(match material {
+            Material::Formula(program) => values(program, inputs),
+            Material::Table(table) => table.read(&inputs),
+        });
+        let displayed = values(&self.light.0, columns);
+        (0..size * size).map(|i| [0, 1, 2].map(|channel| displayed[channel][i])).collect()
+    }
+
+    /// GLSL of what comes before and after a formula: two functions, `sphere_given` and `sphere_light`.
+    pub fn glsl(&self) -> [String; 2] {
+        let function = |(program, names): &(Program, Names), function: &str| {
+            emit(Language::Glsl, &Snippet { program, names, function, header: &[] })
+        };
+        [function(&self.given, "sphere_given"), function(&self.light, "sphere_light")]
+    }
+}
+
+/// x, y and z of the normal at each pixel's centre.
+fn pixels(size: usize) -> [Vec<f32>; 3] {
+    let mut normal = [const { Vec::new() }; 3];
+    for row in 0..size {
+        for column in 0..size {
+            let at = |i: usize| (2.0 * (i as f32 + 0.5) / size as f32 - 1.0) / RADIUS;
+            let (x, y) = (at(column), -at(row));
+            let beyond = (x * x + y * y).sqrt().max(1.0);
+            let (x, y) = (x / beyond, y / beyond);
+            let z = (1.0 - x * x - y * y).max(0.0).sqrt();
+            normal.iter_mut().zip([x, y, z]).for_each(|(to, value)| to.push(value));
+        }
+    }
+    normal
+}
+
+fn values(program: &Program, columns: Vec<Vec<f32>>) -> Vec<Vec<f32>> {
+    let inputs = columns.len();
+    let split = Split { columns, ..Split::default() };
+    Evaluator::default().outputs(&Tape::new(program), &Samples::new(&split, inputs))
+}
+
+/// Root mean square difference of two pictures' colours, within the spheres.
+pub fn displayed_rmse(a: &[[f32; 3]], b: &[[f32; 3]], size: usize) -> f64 {
+    let within = |i: &usize| {
+        let centre = |i: usize| i as f32 + 0.5 - size as f32 / 2.0;
+        centre(i % size).hypot(centre(i / size)) < RADIUS * size as f32 / 2.0
+    };
+    let square = |i: usize| (0..3).map(move |c| f64::from(a[i][c] - b[i][c]).powi(2)).sum::<f64>();
+    let squares: Vec<f64> = (0..size * size).filter(within).map(square).collect();
+    (squares.iter().sum::<f64>() / (3 * squares.len()) as f64).sqrt()
+}
+
+/// By so much is a difference of displayed colours magnified.
+pub const DIFFERENCE_TIMES: f32 = 3.0;
+
+/// The magnified absolute difference of two pictures.
+pub fn difference(a: &[[f32; 3]], b: &[[f32; 3]]) -> Vec<[f32; 3]> {
+    let each = |(a, b): (&[f32; 3], &[f32; 3])| {
+        [0, 1, 2].map(|c| (DIFFERENCE_TIMES * (a[c] - b[c]).abs()).min(1.0))
+    };
+    a.iter().zip(b).map(each).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::program::parse;
+
+    fn columns(names: &[&str]) -> Vec<Column> {
+        let column =
+            |name: &&str| Column { name: (*name).into(), unit: "1".into(), domain: [0.0, 1.0] };
+        names.iter().map(column).collect()
+    }
+
+    fn dfg(environment: Environment) -> Spheres {
+        let (inputs, outputs) = (columns(&["n_dot_v", "roughness"]), columns(&["scale", "bias"]));
+        Spheres::of(&inputs, &outputs, environment).unwrap()
+    }
+
+    fn program(text: &str) -> Program {
+        parse(text, &Names::new(["n_dot_v", "roughness"], ["scale", "bias"])).unwrap()
+    }
+
+    #[test]
+    fn a_perfect_mirror_in_a_uniform_environment_is_white_and_half_of_it_is_not() {
+        let spheres = dfg(Environment::Uniform);
+        let white = program("scale = 0; bias = 1");
+        let shaded = spheres.shade(Material::Formula(&white), &View::default(), 8);
+        assert!(shaded.iter().flatten().all(|value| (value - 1.0).abs() < 1e-5), "{shaded:?}");
+        let half = program("scale = n_dot_v/n_dot_v; bias = 0");
+        let shaded = spheres.shade(Material::Formula(&half), &View::default(), 8);
+        // sRGB of a half (IEC 61966-2-1): 0.7354.
+        assert!(shaded.iter().flatten().all(|value| (value - 0.7354).abs() < 1e-3), "{shaded:?}");
+    }
+
+    #[test]
+    fn every_environment_is_displayable_at_every_roughness() {
+        let program = program("scale = 1; bias = 0.01*n_dot_v*roughness");
+        for environment in Environment::ALL {
+            let spheres = dfg(environment);
+            for roughness in [0.0, 0.05, 0.5, 1.0] {
+                let view = View { roughness, f0: 1.0, ..View::default() };
+                let shaded = spheres.shade(Material::Formula(&program), &view, 24);
+                assert!(shaded.iter().flatten().all(|v| (0.0..=1.0).contains(v)), "{environment}");
+                assert!(shaded.iter().any(|pixel| pixel[1] > 0.3), "{environment} at {roughness}");
+            }
+        }
+    }
+
+    #[test]
+    fn columns_without_a_scene_have_none() {
+        let scene = |inputs: &[&str], outputs: &[&str]| {
+            Spheres::of(&columns(inputs), &columns(outputs), Environment::Sky).is_some()
+        };
+        assert!(scene(&["n_dot_v", "roughness"], &["bias"]));
+        assert!(scene(&["omega", "roughness", "theta"], &["lobe"]));
+        assert!(scene(&["n_dot_v", "roughness"], &["zh0"]));
+        assert!(dfg(Environment::Sky).uses_f0());
+        assert!(!scene(&["a"], &["g1"]) && !scene(&["n_dot_v"], &["visibility"]));
+    }
+}
