@@ -212,6 +212,9 @@ fn spheres_agree(seen: &Value, folder: &Path) {
             assert!(mean < 2.0, "formula {number} in {environment}, row {which}: {mean}/255");
             assert!(which == 2 || brightest > 60, "{environment}: row {which} is black");
         }
+        let [truth, formula] =
+            [0, 1].map(|which| &drawn[3 * which * SIZE * SIZE..][..3 * SIZE * SIZE]);
+        assert_ne!(truth, formula, "{environment}: nothing could differ");
     }
 }
 
