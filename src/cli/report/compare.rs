@@ -23,7 +23,7 @@ pub(super) fn write(folders: &[PathBuf], path: &Path) -> Result<usize, Failure> 
             seconds: run.seconds,
             considered: run.counts.considered,
             front: members.collect(),
-            trace: content::trace(folder)?,
+            trace: content::trace(folder)?.filter(|trace| !trace.seconds.is_empty()),
         };
         runs.push((run, compared));
     }
@@ -106,6 +106,7 @@ fn traits(run: &Run) -> Vec<(&'static str, String)> {
         ("candidates", settings.candidates.to_string()),
         ("bucket", settings.bucket_size.to_string()),
         ("exhaustive", enumerated.to_string()),
+        ("random share", settings.immigrants.to_string()),
         ("requirements", format!("{:?}", settings.requirements)),
         ("transforms", format!("{:?}", settings.transforms)),
         ("searches merged", run.sources.len().to_string()),

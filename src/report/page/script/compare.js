@@ -55,13 +55,14 @@ function drawFronts() {
 }
 
 function drawTimes() {
-  const traced = data.groups.every(({ runs }) => runs.every(({ trace }) => trace));
-  for (const id of ["volume", "error"]) byId(id).closest("section").hidden = !traced;
-  if (!traced) return;
-  const times = data.groups.map(({ runs }) => [...new Set(runs.flatMap(({ trace }) => trace[shown.time]))].filter((t) => t > 0).sort((a, b) => a - b));
+  const traced = (runs) => runs.every(({ trace }) => trace);
+  const any = data.groups.some(({ runs }) => traced(runs));
+  for (const id of ["volume", "error"]) byId(id).closest("section").hidden = !any;
+  if (!any) return;
+  const times = data.groups.map(({ runs }) => (traced(runs) ? [...new Set(runs.flatMap(({ trace }) => trace[shown.time]))].filter((t) => t > 0).sort((a, b) => a - b) : []));
   const xScale = logarithmicOver(times.flat(), 0.01);
   // To the end of the shortest run of each group.
-  const within = (runs, moments) => { const last = Math.min(...runs.map(({ trace }) => trace[shown.time].at(-1))); return moments.filter((t) => t <= last); };
+  const within = (runs, moments) => { if (!traced(runs)) return []; const last = Math.min(...runs.map(({ trace }) => trace[shown.time].at(-1))); return moments.filter((t) => t <= last); };
   const bands = (of) => data.groups.map(({ runs }, g) => band(runs, within(runs, times[g]), of));
   const volumes = bands((run, t) => at(run, run.trace.hypervolume, t));
   const all = volumes.flat().flatMap((p) => [p[2], p[3]]);
