@@ -62,8 +62,10 @@ impl Trace<'_> {
         }
     }
 
+    /// Infinite of NaN, wherever it is: what is made of it is NaN, too.
     fn error(&self, arg: Arg) -> f64 {
         match arg {
+            Arg::Result(i) if self.found[usize::from(i)].is_nan() => f64::INFINITY,
             Arg::Result(i) => relative(self.found[usize::from(i)], self.exact[usize::from(i)]),
             _ => 0.0,
         }

@@ -89,6 +89,7 @@ impl Enclosure {
 impl Enclosed {
     /// What both bounds and form allow.
     fn new(rounding: Rounding, bounds: Interval, form: Option<Form>) -> Enclosed {
+        let form = form.filter(Form::is_finite);
         let bounds = form.map_or(bounds, |form| bounds.narrowed(form.bounds()));
         // Where the form knows less, what it says of others is worth little.
         let plain = Form::around(bounds);

@@ -97,6 +97,11 @@ impl Form {
         self.center.abs() + self.radius()
     }
 
+    /// Whether it says anything: differences of large numbers overflow.
+    pub fn is_finite(&self) -> bool {
+        self.magnitude().is_finite()
+    }
+
     pub fn bounds(&self) -> Interval {
         let radius = self.radius();
         let radius = radius + (self.center.abs() + radius) * LOSS;

@@ -20,6 +20,10 @@ pub struct Loss {
 }
 
 impl Loss {
+    fn is_of_numbers(&self) -> bool {
+        self.found.is_finite() && self.exact.is_finite()
+    }
+
     /// Infinite where either is no number.
     pub fn absolute(&self) -> f64 {
         let error = (self.found - self.exact).abs();
@@ -41,8 +45,8 @@ impl Loss {
     }
 }
 
-/// The worst cases found, by absolute and by relative error, where `f64` gives a number; and where low
-/// precision gives none, if anywhere.
+/// The worst cases found, by absolute and by relative error, where both give
+/// numbers; and where low precision gives none, if anywhere.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Precision {
     pub absolute: Option<Loss>,
@@ -119,7 +123,7 @@ impl Precision {
         let exceeds = |known: &Option<Loss>, size: fn(&Loss) -> f64| {
             known.as_ref().is_none_or(|known| size(loss) > size(known))
         };
-        loss.exact.is_finite()
+        loss.is_of_numbers()
             && (exceeds(&self.absolute, Loss::absolute) || exceeds(&self.relative, Loss::relative))
             || !loss.found.is_finite() && self.not_finite.is_none()
     }
@@ -131,7 +135,7 @@ impl Precision {
                 *to = Some(loss.clone());
             }
         };
-        if loss.exact.is_finite() {
+        if loss.is_of_numbers() {
             offer(&mut self.absolute, Loss::absolute);
             offer(&mut self.relative, Loss::relative);
         }

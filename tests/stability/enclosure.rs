@@ -139,6 +139,22 @@ fn no_value_of_a_sloppy_gpu_leaves_its_bounds() {
     });
 }
 
+/// Differences of numbers near the largest are no reason to think that they are ordered.
+#[test]
+fn a_form_that_overflows_says_nothing() {
+    let names = lgp::program::Names::new(["a", "b", "c"], ["f"]);
+    let text = "f = select(c < saturate(b), b, a)";
+    let program = lgp::program::parse(text, &names).unwrap();
+    let domain = [(0.0, 7.4), (0.999_999_94, f32::MAX), (0.0, 5e-5)];
+    let domain = domain.map(|(low, high)| Interval::new(low, high));
+    for rounding in [Rounding::Exact, Rounding::Gpu] {
+        let mut enclosure = Enclosure::new(rounding);
+        enclosure.evaluate(&program, &domain);
+        let bounds = enclosure.bounds(&program, program.outputs[0]);
+        assert!(bounds.contains(1e38), "{bounds:?}");
+    }
+}
+
 /// Smooth programs at a small box: forms must beat plain intervals, or they are not worth having.
 #[test]
 fn the_excess_falls_with_the_square_of_the_width() {
