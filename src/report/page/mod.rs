@@ -1,7 +1,7 @@
 //! The page of a run: one file of HTML that needs nothing else, no network either.
 //!
 //! What can be computed is: the page holds the samples and each formula as JavaScript in f32
-//! arithmetic ([`crate::emit::javascript`]), and makes maps, profiles and histograms of them when
+//! arithmetic ([`crate::emit::javascript()`]), and makes maps, profiles and histograms of them when
 //! they are looked at. It depends on what it is given alone: no clock, no random number.
 
 mod compare;
