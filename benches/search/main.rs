@@ -8,6 +8,7 @@
 //! polished.
 
 mod functions;
+mod peers;
 mod record;
 mod summary;
 
@@ -111,7 +112,8 @@ fn main() -> Result<(), Box<dyn Error>> {
         }
     }
     std::fs::create_dir_all(&args.out)?;
-    summary::write(&args.out, &cases)
+    summary::write(&args.out, &cases)?;
+    peers::draw(&args.out.join("peers"))
 }
 
 /// The search split, a column for each input and output.

@@ -2,7 +2,7 @@ use super::run_folder::{self, Which};
 use super::{Common, Exit, Failure, tiers};
 use crate::emit::Language;
 use crate::search::{Front, FrontMember, Run};
-use crate::stability::Questions;
+use crate::stability::{Questions, must_stay_single};
 use serde::Serialize;
 use std::path::PathBuf;
 
@@ -16,10 +16,14 @@ pub struct Args {
     /// hlsl, wgsl, glsl, msl, c, rust, python or latex
     #[arg(long, value_name = "L", value_parser = Language::from_name)]
     lang: Language,
-    /// In half precision throughout (hlsl, wgsl, glsl, msl); what that costs in accuracy is for
-    /// you to judge
+    /// In half precision throughout (hlsl, wgsl, glsl, msl); `lgp check` says what that costs in
+    /// accuracy
     #[arg(long)]
     half: bool,
+    /// In half precision, but for as few operations as must stay in single for halves to add an
+    /// error of at most E anywhere in the domain
+    #[arg(long, value_name = "E", conflicts_with = "half")]
+    half_error: Option<f64>,
     /// Which one: its number in the table, or the knee [default: knee]
     #[arg(long, value_name = "knee|N", conflicts_with_all = ["max_cost", "max_error", "tier"])]
     pick: Option<String>,
@@ -48,14 +52,20 @@ pub fn run(args: &Args, common: &Common) -> Result<(), Failure> {
     let mut member = pick(args, &run, &front)?.clone();
     member.judge(&Questions::of(&run.inputs, &run.outputs), &run.names());
     let member = &member;
-    let code = match args.half {
-        false => run_folder::snippet(&run, member, args.lang),
-        true => run_folder::half_snippet(&run, member, args.lang).ok_or_else(|| {
-            Failure::usage(format!(
-                "--half: {} has no halves; hlsl, wgsl, glsl and msl do",
-                args.lang
-            ))
-        })?,
+    let code = match (args.half, args.half_error) {
+        (false, None) => run_folder::snippet(&run, member, args.lang),
+        (_, bound) => {
+            let stay_single = match bound {
+                Some(bound) => stay_single(&run, member, bound)?,
+                None => Vec::new(),
+            };
+            run_folder::half_snippet(&run, member, args.lang, &stay_single).ok_or_else(|| {
+                Failure::usage(format!(
+                    "--half: {} has no halves; hlsl, wgsl, glsl and msl do",
+                    args.lang
+                ))
+            })?
+        }
     };
     let emitted = Emitted {
         language: args.lang.name(),
@@ -65,6 +75,18 @@ pub fn run(args: &Args, common: &Common) -> Result<(), Failure> {
         code: &code,
     };
     common.result(&emitted, &code)
+}
+
+/// The operations that cannot be halves for that error.
+fn stay_single(run: &Run, member: &FrontMember, bound: f64) -> Result<Vec<usize>, Failure> {
+    let domain = Questions::of(&run.inputs, &run.outputs).domain;
+    must_stay_single(&member.program, &domain, bound).ok_or_else(|| {
+        let message = format!(
+            "--half-error {bound}: even in single precision, with halves for arguments and outputs only, \
+             the error is larger; ask for more"
+        );
+        Failure::new(Exit::Unmet, anyhow::Error::msg(message))
+    })
 }
 
 fn pick<'a>(args: &Args, run: &Run, front: &'a Front) -> Result<&'a FrontMember, Failure> {

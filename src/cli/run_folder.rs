@@ -167,14 +167,24 @@ pub fn snippet(run: &Run, member: &FrontMember, language: Language) -> String {
     )
 }
 
-/// A member in half precision, in a language that has it.
-pub fn half_snippet(run: &Run, member: &FrontMember, language: Language) -> Option<String> {
+/// A member in half precision but for some instructions, in a language that has it.
+pub fn half_snippet(
+    run: &Run,
+    member: &FrontMember,
+    language: Language,
+    stay_single: &[usize],
+) -> Option<String> {
     let (names, mut header) = (run.names(), header(run, member));
-    header.push("in half precision throughout; cost and errors are those of single".to_owned());
-    emit::emit_half(
-        language,
-        &Snippet { program: &member.program, names: &names, function: &run.name, header: &header },
-    )
+    header.push(match stay_single.len() {
+        0 => "in half precision throughout; cost and errors are those of single".to_owned(),
+        singles => format!(
+            "in half precision, {singles} of {} operations in single; cost and errors are those of single",
+            member.program.instrs.len()
+        ),
+    });
+    let snippet =
+        Snippet { program: &member.program, names: &names, function: &run.name, header: &header };
+    emit::emit_half(language, &snippet, stay_single)
 }
 
 fn header(run: &Run, member: &FrontMember) -> Vec<String> {

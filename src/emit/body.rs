@@ -1,4 +1,4 @@
-//! The statements of a function.
+//! The statements of a function, all of one precision or of two.
 
 use super::naming::Naming;
 use super::syntax::{Binding, Signature, Spelling, Syntax, pieces, power};
@@ -10,15 +10,15 @@ use half::f16;
 /// One for each output, and for each result that is read or written more than once or too long
 /// to be read in place.
 pub(super) fn statements(
-    syntax: &Syntax,
+    syntaxes: Syntaxes,
     program: &Program,
     signature: &Signature,
     naming: &mut Naming,
 ) -> Vec<String> {
-    let forms = forms(program, syntax);
+    let forms = forms(program, syntaxes);
     let counts = use_counts(program, &forms);
     let mut body = Body {
-        syntax,
+        syntaxes,
         program,
         signature,
         naming,
@@ -34,6 +34,29 @@ pub(super) fn statements(
     body.statements
 }
 
+/// How a function is written, and those of its instructions that are written otherwise: in single
+/// precision within a function of halves.
+#[derive(Clone, Copy)]
+pub(super) struct Syntaxes<'a> {
+    pub function: &'static Syntax,
+    pub single: &'static Syntax,
+    pub stay_single: &'a [usize],
+}
+
+impl Syntaxes<'_> {
+    pub fn one(syntax: &'static Syntax) -> Syntaxes<'static> {
+        Syntaxes { function: syntax, single: syntax, stay_single: &[] }
+    }
+
+    fn of_instruction(&self, i: usize) -> &'static Syntax {
+        if self.stay_single.contains(&i) { self.single } else { self.function }
+    }
+
+    fn of_halves(&self, half: bool) -> &'static Syntax {
+        if half == self.function.half { self.function } else { self.single }
+    }
+}
+
 /// What is written for an instruction.
 #[derive(Clone, Copy, Debug, PartialEq)]
 enum Form {
@@ -44,9 +67,10 @@ enum Form {
     Operation,
 }
 
-fn forms(program: &Program, syntax: &Syntax) -> Vec<Form> {
+fn forms(program: &Program, syntaxes: Syntaxes) -> Vec<Form> {
     let mut forms: Vec<Form> = Vec::with_capacity(program.instrs.len());
-    for instr in &program.instrs {
+    for (i, instr) in program.instrs.iter().enumerate() {
+        let syntax = syntaxes.of_instruction(i);
         let constant = |arg: Arg| match arg {
             Arg::Input(_) => None,
             Arg::Const(i) => Some(rounded(program.consts[usize::from(i)], syntax)),
@@ -116,55 +140,60 @@ struct Code {
     binding: Binding,
     /// Whether it is a whole expression, that could be given a name instead.
     in_place: bool,
+    /// Whether its value is a half.
+    half: bool,
 }
 
 impl Code {
-    fn name(text: String) -> Code {
-        Code { text, binding: Binding::Atom, in_place: false }
+    fn name(text: String, syntax: &Syntax) -> Code {
+        Code { text, binding: Binding::Atom, in_place: false, half: syntax.half }
     }
 }
 
 struct Body<'a, 'n> {
-    syntax: &'a Syntax,
+    syntaxes: Syntaxes<'a>,
     program: &'a Program,
     signature: &'a Signature,
     naming: &'a mut Naming<'n>,
     forms: Vec<Form>,
     codes: Vec<Code>,
     statements: Vec<String>,
-    /// The bits and the name of each infinity or NaN declared so far.
-    non_finite: Vec<(u32, String)>,
+    /// The bits of each infinity or NaN declared so far, whether it is a half, and its name.
+    non_finite: Vec<(u32, bool, String)>,
 }
 
 impl Body<'_, '_> {
     fn instruction(&mut self, i: usize, count: u32) {
         let output =
             self.program.outputs.iter().position(|&output| output == Arg::Result(i as u16));
-        let code = match self.forms[i] {
-            _ if count == 0 => Code::name(String::new()),
-            Form::Constant(value) => self.constant(value),
-            Form::Power(base, count) => self.power(base, count),
+        let syntax = self.syntaxes.of_instruction(i);
+        let mut code = match self.forms[i] {
+            _ if count == 0 => Code::name(String::new(), syntax),
+            Form::Constant(value) => self.constant(value, syntax),
+            Form::Power(base, count) => self.power(base, count, syntax),
             Form::Operation => {
                 let instr = &self.program.instrs[i];
-                self.expression((self.syntax.spelling)(instr.op()), instr.args())
+                self.expression((syntax.spelling)(instr.op()), instr.args(), syntax)
             }
         };
-        let name = match output {
-            Some(output) => Some(self.signature.outputs[output].clone()),
-            None if count > 1 && code.in_place => Some(self.naming.temporary()),
-            None => None,
-        };
-        let code = match name {
-            Some(name) => self.declare(name, &code.text),
-            None => code,
-        };
+        let same = syntax.half == self.syntaxes.function.half;
+        if let Some(output) = output.filter(|_| same) {
+            code = self.declare(self.signature.outputs[output].clone(), &code.text, syntax);
+        } else if count > 1 && code.in_place {
+            self.name(&mut code);
+        }
+        if let Some(output) = output.filter(|_| !same) {
+            let value = self.converted(code.clone(), self.syntaxes.function).text;
+            let name = self.signature.outputs[output].clone();
+            self.declare(name, &value, self.syntaxes.function);
+        }
         self.codes.push(code);
     }
 
-    fn declare(&mut self, name: String, value: &str) -> Code {
-        let name = (self.syntax.written)(&name);
-        self.statements.push((self.syntax.local)(&name, value));
-        Code::name(name)
+    fn declare(&mut self, name: String, value: &str, syntax: &Syntax) -> Code {
+        let name = (syntax.written)(&name);
+        self.statements.push((syntax.local)(&name, value));
+        Code::name(name, syntax)
     }
 
     /// Outputs that are inputs, constants, or another output's result.
@@ -174,20 +203,21 @@ impl Body<'_, '_> {
             if matches!(arg, Arg::Result(_)) && first == Some(o) {
                 continue;
             }
-            let value = self.argument(arg).text;
-            self.declare(self.signature.outputs[o].clone(), &value);
+            let syntax = self.syntaxes.function;
+            let value = self.argument(arg, syntax).text;
+            self.declare(self.signature.outputs[o].clone(), &value, syntax);
         }
     }
 
-    fn power(&mut self, base: Arg, count: u32) -> Code {
-        let template = self.syntax.power.expect("powers are formed where they can be written");
-        let mut code = self.expression(power(template), &[base]);
+    fn power(&mut self, base: Arg, count: u32, syntax: &'static Syntax) -> Code {
+        let template = syntax.power.expect("powers are formed where they can be written");
+        let mut code = self.expression(power(template), &[base], syntax);
         code.text = code.text.replace("{n}", &count.to_string());
         code
     }
 
-    fn expression(&mut self, spelling: Spelling, args: &[Arg]) -> Code {
-        let mut args: Vec<Code> = args.iter().map(|&arg| self.argument(arg)).collect();
+    fn expression(&mut self, spelling: Spelling, args: &[Arg], syntax: &'static Syntax) -> Code {
+        let mut args: Vec<Code> = args.iter().map(|&arg| self.argument(arg, syntax)).collect();
         for (i, arg) in args.iter_mut().enumerate() {
             let places = pieces(spelling.template).0;
             let written = places.iter().filter(|(_, place)| place.argument == i).count();
@@ -196,24 +226,33 @@ impl Body<'_, '_> {
             }
         }
         let mut text = self.filled(&spelling, &args);
-        while text.len() > self.syntax.width {
+        while text.len() > syntax.width {
             let in_place = args.iter_mut().filter(|arg| arg.in_place);
             let Some(longest) = in_place.max_by_key(|arg| arg.text.len()) else { break };
             self.name(longest);
             text = self.filled(&spelling, &args);
         }
-        Code { text, binding: spelling.binding, in_place: true }
+        Code { text, binding: spelling.binding, in_place: true, half: syntax.half }
     }
 
     /// Makes the expression a local.
     fn name(&mut self, code: &mut Code) {
         let name = self.naming.temporary();
-        *code = self.declare(name, &code.text);
+        *code = self.declare(name, &code.text, self.syntaxes.of_halves(code.half));
+    }
+
+    /// The value in the precision of its reader.
+    fn converted(&self, code: Code, to: &Syntax) -> Code {
+        if code.half == to.half {
+            return code;
+        }
+        let text = format!("{}({})", to.types[0], code.text);
+        Code { text, binding: Binding::Atom, in_place: true, half: to.half }
     }
 
     /// The template with the arguments in its places.
     fn filled(&self, spelling: &Spelling, args: &[Code]) -> String {
-        let [open, close] = self.syntax.parentheses;
+        let [open, close] = self.syntaxes.function.parentheses;
         let (places, rest) = pieces(spelling.template);
         let mut text = String::new();
         for (before, place) in places {
@@ -228,40 +267,49 @@ impl Body<'_, '_> {
         text + rest
     }
 
-    fn argument(&mut self, arg: Arg) -> Code {
+    fn argument(&mut self, arg: Arg, to: &'static Syntax) -> Code {
         match arg {
             Arg::Input(i) => {
-                Code::name((self.syntax.written)(&self.signature.inputs[usize::from(i)]))
+                let name = &self.signature.inputs[usize::from(i)];
+                let function = self.syntaxes.function;
+                self.converted(Code::name((function.written)(name), function), to)
             }
-            Arg::Const(i) => self.constant(self.program.consts[usize::from(i)]),
-            Arg::Result(i) => self.codes[usize::from(i)].clone(),
+            Arg::Const(i) => self.constant(self.program.consts[usize::from(i)], to),
+            Arg::Result(i) => match self.forms[usize::from(i)] {
+                Form::Constant(value) if self.codes[usize::from(i)].half != to.half => {
+                    self.constant(value, to)
+                }
+                _ => self.converted(self.codes[usize::from(i)].clone(), to),
+            },
         }
     }
 
-    fn constant(&mut self, value: f32) -> Code {
-        let value = rounded(value, self.syntax);
+    fn constant(&mut self, value: f32, syntax: &'static Syntax) -> Code {
+        let value = rounded(value, syntax);
         if !value.is_finite() {
-            return self.non_finite(value);
+            return self.non_finite(value, syntax);
         }
         let binding = if value.is_sign_negative() { Binding::Negation } else { Binding::Atom };
-        Code { text: (self.syntax.literal)(value), binding, in_place: false }
+        Code { text: (syntax.literal)(value), binding, in_place: false, half: syntax.half }
     }
 
-    fn non_finite(&mut self, value: f32) -> Code {
+    fn non_finite(&mut self, value: f32, syntax: &'static Syntax) -> Code {
         let (value, name) = match value {
             _ if value.is_nan() => (f32::NAN, "not_a_number"),
             _ if value > 0.0 => (value, "infinity"),
             _ => (value, "minus_infinity"),
         };
         let bits = value.to_bits();
-        if let Some((_, name)) = self.non_finite.iter().find(|(known, _)| *known == bits) {
-            return Code::name(name.clone());
+        let known =
+            |(known, half, _): &&(u32, bool, String)| (*known, *half) == (bits, syntax.half);
+        if let Some((.., name)) = self.non_finite.iter().find(known) {
+            return Code::name(name.clone(), syntax);
         }
         let name = self.naming.fresh(name);
         let bits_name = self.naming.fresh(&format!("{name}_bits"));
-        self.statements.extend((self.syntax.non_finite)(&name, &bits_name, bits));
-        let name = (self.syntax.written)(&name);
-        self.non_finite.push((bits, name.clone()));
-        Code::name(name)
+        self.statements.extend((syntax.non_finite)(&name, &bits_name, bits));
+        let name = (syntax.written)(&name);
+        self.non_finite.push((bits, syntax.half, name.clone()));
+        Code::name(name, syntax)
     }
 }

@@ -44,6 +44,7 @@ pub use read::{ReadError, read_back};
 
 use crate::program::{Names, Program};
 use crate::suggest::did_you_mean;
+use body::Syntaxes;
 use naming::Naming;
 use std::fmt;
 use syntax::Syntax;
@@ -159,15 +160,17 @@ pub struct Snippet<'a> {
 /// # Panics
 /// If `names` does not have a name for each input and output of the program.
 pub fn emit(language: Language, snippet: &Snippet) -> String {
-    written(language.syntax(), snippet)
+    written(Syntaxes::one(language.syntax()), snippet)
 }
 
-/// The same function in half precision throughout, constants too; of a language that has none,
-/// nothing. What is emitted in WGSL and GLSL begins with the line that allows halves.
+/// The same function in half precision, arguments, constants and outputs too, but for the
+/// instructions of the program that are to stay in single precision (those of
+/// [`stability::must_stay_single`](crate::stability::must_stay_single), or none); of a language that has
+/// no halves, nothing. What is emitted in WGSL and GLSL begins with the line that allows halves.
 ///
 /// # Panics
 /// As [`emit`] does.
-pub fn emit_half(language: Language, snippet: &Snippet) -> Option<String> {
+pub fn emit_half(language: Language, snippet: &Snippet, stay_single: &[usize]) -> Option<String> {
     let syntax = match language {
         Language::Hlsl => &hlsl::HALF,
         Language::Wgsl => &wgsl::HALF,
@@ -175,7 +178,8 @@ pub fn emit_half(language: Language, snippet: &Snippet) -> Option<String> {
         Language::Msl => &msl::HALF,
         Language::C | Language::Rust | Language::Python | Language::Latex => return None,
     };
-    Some(written(syntax, snippet))
+    let single = language.syntax();
+    Some(written(Syntaxes { function: syntax, single, stay_single }, snippet))
 }
 
 /// The snippet as a function of JavaScript that returns an array of its outputs, for pages; it calls
@@ -184,7 +188,7 @@ pub fn emit_half(language: Language, snippet: &Snippet) -> Option<String> {
 /// # Panics
 /// As [`emit`] does.
 pub fn javascript(snippet: &Snippet) -> String {
-    written(&javascript::SYNTAX, snippet)
+    written(Syntaxes::one(&javascript::SYNTAX), snippet)
 }
 
 /// The snippet as equations that browsers typeset, without its header.
@@ -192,10 +196,11 @@ pub fn javascript(snippet: &Snippet) -> String {
 /// # Panics
 /// As [`emit`] does.
 pub fn mathml(snippet: &Snippet) -> String {
-    written(&mathml::SYNTAX, &Snippet { header: &[], ..*snippet })
+    written(Syntaxes::one(&mathml::SYNTAX), &Snippet { header: &[], ..*snippet })
 }
 
-fn written(syntax: &'static Syntax, snippet: &Snippet) -> String {
+fn written(syntaxes: Syntaxes, snippet: &Snippet) -> String {
+    let syntax = syntaxes.function;
     let Snippet { program, names, function, header } = *snippet;
     assert_eq!(names.inputs.len(), program.inputs, "a name for each input");
     assert_eq!(names.outputs.len(), program.outputs.len(), "a name for each output");
@@ -206,7 +211,7 @@ fn written(syntax: &'static Syntax, snippet: &Snippet) -> String {
         header.iter().flat_map(|line| line.lines()).map(|line| comment(syntax, line)).collect();
     lines.extend(naming.renamed().iter().map(|line| comment(syntax, line)));
     (syntax.open)(syntax, &signature, &mut lines);
-    let statements = body::statements(syntax, program, &signature, &mut naming);
+    let statements = body::statements(syntaxes, program, &signature, &mut naming);
     lines.extend(statements.iter().map(|line| format!("    {line}")));
     (syntax.close)(syntax, &signature, &mut lines);
     lines.join("\n") + "\n"

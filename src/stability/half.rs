@@ -33,7 +33,7 @@ fn rounded(x: f32) -> f32 {
 
 /// The outputs at a point, in half precision but for the instructions marked (none where the list
 /// ends). A half that meets single precision is taken as it is, a single that meets halves is
-/// rounded.
+/// rounded; outputs are halves.
 pub(super) fn outputs(program: &Program, single: &[bool], point: &[f32]) -> Vec<f64> {
     let arithmetic = Half::default();
     let mut results: Vec<f32> = Vec::with_capacity(program.instrs.len());
@@ -55,7 +55,7 @@ pub(super) fn outputs(program: &Program, single: &[bool], point: &[f32]) -> Vec<
     let value = |&arg: &Arg| match arg {
         Arg::Input(i) => rounded(point[usize::from(i)]),
         Arg::Const(i) => rounded(program.consts[usize::from(i)]),
-        Arg::Result(i) => results[usize::from(i)],
+        Arg::Result(i) => rounded(results[usize::from(i)]),
     };
     program.outputs.iter().map(|arg| value(arg).into()).collect()
 }
@@ -76,7 +76,7 @@ fn error(program: &Program, single: &[bool], point: &[f32], exact: &[f64]) -> f6
 const FEW: usize = 48;
 
 /// Points that a set is held against.
-const POINTS: usize = 2048;
+const POINTS: usize = 8192;
 
 /// The largest error of a program in half precision at the given points, fused or not.
 pub fn half_error<'a>(program: &Program, inputs: impl Iterator<Item = &'a [f32]>) -> f64 {

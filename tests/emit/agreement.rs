@@ -24,6 +24,8 @@ pub struct Case {
     pub expected: Vec<Vec<f32>>,
     /// If it is of one operation.
     pub op: Option<Op>,
+    /// The instructions that stay in single precision where it is written in halves.
+    pub stay_single: Vec<usize>,
 }
 
 /// Values agree if either holds.
@@ -45,6 +47,7 @@ impl Case {
             expected: Evaluator::default().outputs(&Tape::new(&program), &samples),
             inputs: split.columns[..program.inputs].to_vec(),
             op: None,
+            stay_single: Vec::new(),
             program,
             names,
         }

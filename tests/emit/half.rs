@@ -6,8 +6,11 @@ use crate::lavapipe::{Precision::InHalf, device, outputs};
 use crate::tools;
 use ::half::f16;
 use lgp::emit::Language;
-use lgp::eval::{Arithmetic, Half};
-use lgp::op::Op;
+use lgp::eval::{Arithmetic, Double, Half};
+use lgp::num::Interval;
+use lgp::op::{MAX_ARITY, Op};
+use lgp::program::Arg;
+use lgp::stability::must_stay_single;
 use std::collections::BTreeMap;
 
 #[test]
@@ -23,6 +26,79 @@ fn glsl_in_half_precision_computes_what_the_evaluator_computes() {
 #[test]
 fn hlsl_in_half_precision_computes_what_the_evaluator_computes() {
     agree_in_half(Language::Hlsl);
+}
+
+/// What [`must_stay_single`] leaves in single precision for an error of [`MIXED_ERROR`].
+#[test]
+fn mixed_precision_errs_as_little_as_it_was_chosen_for() {
+    let domain = [Interval::new(0.0, 1.0); 2];
+    let chosen = |mut case: Case| {
+        case.stay_single = must_stay_single(&case.program, &domain, MIXED_ERROR)?;
+        (!case.stay_single.is_empty()).then(|| with_half_inputs(case))
+    };
+    let cases: Vec<Case> = front().into_iter().step_by(4).filter_map(chosen).collect();
+    assert!(cases.len() >= 5, "too few formulas need it: {}", cases.len());
+    for language in [Language::Wgsl, Language::Glsl, Language::Hlsl] {
+        let Some(gpu) = device(language) else { continue };
+        if !gpu.half {
+            return tools::skipped(&format!("{} has no halves; they were not run", gpu.name));
+        }
+        for (case, found) in cases.iter().zip(outputs(&gpu, language, InHalf, &cases)) {
+            let singles = case.stay_single.len();
+            let exact = in_double(case);
+            let [off, evaluated, without] = [&found, &mixed(case), &in_half(case)]
+                .map(|outputs| largest_difference(outputs, &exact));
+            println!(
+                "{language}, {}: {singles} in single, off by {off:.5}, the evaluator by \
+                 {evaluated:.5}; by {without:.5} in halves alone",
+                case.title
+            );
+            assert!(f64::from(evaluated) <= MIXED_SLACK * MIXED_ERROR, "{}: {off}", case.title);
+            assert!(f64::from(off) <= 2.0 * MIXED_ERROR, "{}: {off}", case.title);
+        }
+    }
+}
+
+const MIXED_ERROR: f64 = 2e-3;
+
+/// Points are others than those that it was chosen on.
+const MIXED_SLACK: f64 = 1.5;
+
+/// The outputs in halves, but for what stays in single precision.
+fn mixed(case: &Case) -> Vec<Vec<f32>> {
+    let mut outputs = vec![Vec::new(); case.expected.len()];
+    let half = |x: f32| f16::from_f32(x).to_f32();
+    for row in 0..case.rows() {
+        let mut results: Vec<f32> = Vec::new();
+        let value = |arg: Arg, results: &[f32]| match arg {
+            Arg::Input(i) => case.inputs[usize::from(i)][row],
+            Arg::Const(i) => case.program.consts[usize::from(i)],
+            Arg::Result(i) => results[usize::from(i)],
+        };
+        for (i, instr) in case.program.instrs.iter().enumerate() {
+            let mut args = [0.0; MAX_ARITY];
+            args.iter_mut().zip(instr.args()).for_each(|(to, &arg)| *to = value(arg, &results));
+            results.push(match case.stay_single.contains(&i) {
+                true => instr.op().apply(args),
+                false => Half::default().apply(instr.op(), args.map(f16::from_f32)).to_f32(),
+            });
+        }
+        for (output, &arg) in outputs.iter_mut().zip(&case.program.outputs) {
+            output.push(half(value(arg, &results)));
+        }
+    }
+    outputs
+}
+
+/// The outputs in double precision.
+fn in_double(case: &Case) -> Vec<Vec<f32>> {
+    let mut outputs = vec![Vec::new(); case.expected.len()];
+    for row in 0..case.rows() {
+        let inputs: Vec<f64> = case.inputs.iter().map(|x| x[row].into()).collect();
+        let values = Double.evaluate(&case.program, &inputs);
+        outputs.iter_mut().zip(values).for_each(|(output, value)| output.push(value as f32));
+    }
+    outputs
 }
 
 fn agree_in_half(language: Language) {

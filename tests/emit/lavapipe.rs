@@ -155,10 +155,13 @@ fn functions_of_halves() -> String {
 }
 
 fn function(language: Language, precision: Precision, case: &Case) -> String {
-    let Case { program, names, function, .. } = case;
+    let Case { program, names, function, stay_single, .. } = case;
     match precision {
         Single => text(language, program, names, function, &[]),
-        InHalf => emit_half(language, &Snippet { program, names, function, header: &[] }).unwrap(),
+        InHalf => {
+            let snippet = Snippet { program, names, function, header: &[] };
+            emit_half(language, &snippet, stay_single).unwrap()
+        }
     }
 }
 

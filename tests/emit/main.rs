@@ -71,8 +71,34 @@ fn every_operation_in_half_precision() {
     let program = parse(EVERY_OPERATION, &names).unwrap();
     let snippet = Snippet { program: &program, names: &names, function: "dfg", header: &[] };
     let texts: Vec<String> =
-        Language::ALL.iter().filter_map(|&language| emit_half(language, &snippet)).collect();
+        Language::ALL.iter().filter_map(|&language| emit_half(language, &snippet, &[])).collect();
     insta::assert_snapshot!(texts.join("\n"));
+}
+
+#[test]
+fn what_stays_in_single_precision_is_converted_at_its_edges() {
+    let names = Names::new(["x"], ["y", "z"]);
+    let program = parse("t = exp2(3.25*x); y = t - x; z = t", &names).unwrap();
+    let snippet = Snippet { program: &program, names: &names, function: "f", header: &[] };
+    let second = emit_half(Language::Wgsl, &snippet, &[1]).unwrap();
+    let expected = "enable f16;
+
+fn f(x: f16) -> vec2<f16> {
+    let t0 = exp2(f32(3.25h*x));
+    let z = f16(t0);
+    let y = f16(t0) - x;
+    return vec2<f16>(y, z);
+}
+";
+    assert_eq!(second, expected);
+    let others = emit_half(Language::Msl, &snippet, &[0, 2]).unwrap();
+    let expected = "half2 f(half x) {
+    const half z = exp2(half(3.25*float(x)));
+    const half y = half(float(z) - float(x));
+    return half2(y, z);
+}
+";
+    assert_eq!(others, expected);
 }
 
 #[test]
@@ -80,7 +106,7 @@ fn constants_in_half_precision_are_rounded_before_they_are_folded() {
     let names = Names::new(["x"], ["y"]);
     let program = parse("y = x*(0.1 + 0.2) - 70000 + 1e-9*x + 1/0", &names).unwrap();
     let snippet = Snippet { program: &program, names: &names, function: "f", header: &[] };
-    insta::assert_snapshot!(emit_half(Language::Glsl, &snippet).unwrap());
+    insta::assert_snapshot!(emit_half(Language::Glsl, &snippet, &[]).unwrap());
 }
 
 #[test]
