@@ -35,7 +35,7 @@ fn searched() -> TempDir {
     for seed in ["1", "2", "3"] {
         let out = format!("run{seed}");
         let search =
-            ["search", "d.bin", "--generations", "3", "--islands", "2", "--max-cost", "12"];
+            ["search", "d.bin", "--generations", "6", "--islands", "2", "--max-cost", "12"];
         let args = [&search[..], &["--seed", seed, "--out", &out, "--quiet"]].concat();
         succeed(folder.path(), &args);
     }
