@@ -115,13 +115,24 @@ fn a_resumed_run_ends_as_an_uninterrupted_one() {
         let output = lgp(folder.path(), args);
         assert!(output.status.success(), "{}", text(&output.stderr));
     };
+    let own = folder.path().join("two/snippets/mine.hlsl");
+    std::fs::create_dir_all(own.parent().unwrap()).unwrap();
+    std::fs::write(&own, "not the program's").unwrap();
     again(&["search", "dfg.bin", "--generations", "2", "--out", "two", "--quiet"]);
+    // As a search that is killed leaves its folder.
+    for file in ["front.json", "front-max.json"] {
+        std::fs::remove_file(folder.path().join("two").join(file)).unwrap();
+    }
+    let unfinished = lgp(folder.path(), &["report", "two"]);
+    assert_eq!(unfinished.status.code(), Some(3));
+    assert!(text(&unfinished.stderr).contains("--resume"), "{}", text(&unfinished.stderr));
     again(&["search", "dfg.bin", "--generations", "4", "--out", "two", "--resume", "--quiet"]);
     let read = |path: PathBuf| std::fs::read(path).unwrap();
     assert_eq!(
         read(whole.path().join("run/front.json")),
         read(folder.path().join("two/front.json"))
     );
+    assert_eq!(std::fs::read_to_string(&own).unwrap(), "not the program's");
     let other = lgp(
         folder.path(),
         &["search", "dfg.bin", "--generations", "5", "--out", "two", "--resume", "--seed", "9"],

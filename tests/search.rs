@@ -216,13 +216,15 @@ fn what_is_required_is_refuted_nowhere_in_the_domain() {
 
 #[test]
 fn ends_are_met() {
-    let xs: Vec<f32> = (0..=200).map(|i| i as f32 / 200.0).collect();
-    let column = |name: &str| Column { name: name.into(), unit: "1".into(), domain: [0.0, 1.0] };
+    // No f32 is 1.6.
+    let end = 1.6f32;
+    let xs: Vec<f32> = (0..=200).map(|i| end * (i as f32 / 200.0)).collect();
+    let column = |name: &str| Column { name: name.into(), unit: "1".into(), domain: [0.0, 1.6] };
     let ys = xs.iter().map(|x| x.powf(2.2)).collect();
     let split = Split { columns: vec![xs, ys], ..Split::default() };
     let data = Dataset {
         name: "gamma".into(),
-        recipe: "x^2.2".into(),
+        recipe: "x^2.2 up to 1.6".into(),
         inputs: vec![column("x")],
         outputs: vec![column("y")],
         search: split.clone(),
@@ -233,9 +235,9 @@ fn ends_are_met() {
     let front = search(&data, "shader", 10, settings);
     assert!(!front.members.is_empty());
     for member in front.members {
-        for x in [0.0, 1.0] {
+        for x in [0.0, end] {
             let y = member.program.evaluate(&[x])[0];
-            assert!((y - x).abs() <= 1e-5, "{}: {x} → {y}", member.formula);
+            assert!((y - x.powf(2.2)).abs() <= 3e-5, "{}: {x} → {y}", member.formula);
         }
     }
 }
@@ -260,4 +262,24 @@ fn random_restarts_alone_find_less() {
     };
     let (children, some, none) = (least(0.0), least(0.1), least(1.0));
     assert!(children < 0.8 * none && some < 0.9 * none, "{children} {some} {none}");
+}
+
+#[test]
+fn no_formula_exceeds_the_budget() {
+    let data = dataset("dfg", &["scale", "bias"]);
+    let grammar = Grammar::find("shader").unwrap();
+    let profile = Profile::find("gcn:2,turing:1").unwrap();
+    for (max_cost, require) in [(0.0, "finite"), (7.5, "range=0..1")] {
+        let requirements = vec![Requirement::parse(require, &data.names()).unwrap()];
+        let settings = Settings { max_cost, requirements, ..Settings::default() };
+        let problem = Problem::new(&data, &grammar, &profile, &settings);
+        let mut search = Search::new(settings);
+        search.enumerate(&problem, 1.0, usize::MAX);
+        (0..5).for_each(|_| search.advance(&problem));
+        let front = Front::of(&search, &problem);
+        assert!(!front.members.is_empty());
+        for member in front.members {
+            assert!(member.cost <= max_cost, "{}: {}", member.cost, member.formula);
+        }
+    }
 }

@@ -40,7 +40,7 @@ def run(command, text=None, env=None):
                           cwd=ROOT, env=env)
     after = resource.getrusage(resource.RUSAGE_CHILDREN)
     if done.returncode:
-        print(done.stderr, file=sys.stderr)
+        raise SystemExit(f"{command[0]} failed:\n{done.stderr}")
     seconds = after.ru_utime + after.ru_stime - before.ru_utime - before.ru_stime
     return done.stdout, seconds
 
@@ -70,7 +70,7 @@ def tables(programs, folder):
 def formulas(engine, programs, table, seconds, seed, folder):
     """The engine's front as text, and the CPU seconds it took."""
     if engine in OURS:
-        out = folder / "run"
+        out = folder / f"{table.stem}-{engine}-{seed}"
         how = [word.format(seconds=seconds) for word in OURS[engine]]
         _, cpu = run([programs["lgp"], "search", table.with_suffix(".bin"), *how,
                       "--threads", "1", "--seed", seed, "--out", out, "--quiet"])
@@ -136,7 +136,7 @@ def report():
     """A table of the median over seeds at each cost, for each file there is."""
     lines = ["# Side by side with other engines", "",
              "Made by `python3 benches/peers/search.py`. Median over seeds of the least RMSE at a cost or below",
-             "(gcn cycles; search grid), behind / the best seed; one thread, the same CPU seconds, constants of all",
+             "(gcn cycles; search grid), behind / the best seed; one thread, the same seconds given, constants of all",
              "fronts fitted by `examples/polish`. `lgp_restarts` fits random formulas alone, `lgp_enumeration` all",
              "polynomials of at most two cycles, however long that takes; CPU seconds of the first two have the end of a",
              "run in them, its two fronts polished, judged and reported.", ""]

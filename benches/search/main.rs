@@ -20,7 +20,7 @@ use lgp::dataset::{Dataset, Incumbent, incumbents_for};
 use lgp::fit::Measure;
 use lgp::grammar::Grammar;
 use lgp::report::table::Published;
-use lgp::search::{Front, FrontMember, Problem, Search, Settings};
+use lgp::search::{Enumeration, Front, FrontMember, Problem, Search, Settings};
 use record::{Budget, Member, Run, Runs, TRACED, TracePoint};
 use std::error::Error;
 use std::path::{Path, PathBuf};
@@ -42,9 +42,6 @@ fn seconds(args: &Args, work: impl FnOnce()) -> f64 {
         false => start.elapsed().as_secs_f64(),
     }
 }
-
-/// Cycles up to which all formulas are tried first, if they are no more than this, as `lgp search` does.
-const ENUMERATED: (f64, usize) = (1.0, 4000);
 
 #[derive(Parser)]
 struct Args {
@@ -193,7 +190,8 @@ fn measure(args: &Args, case: &Case, profile: &Profile, seed: u64) -> Result<(),
     let settings = Settings { seed, max_cost: args.max_cost, ..Settings::default() };
     let problem = Problem::new(&case.dataset, &grammar, profile, &settings);
     let mut search = Search::new(settings);
-    let mut clock = seconds(args, || search.enumerate(&problem, ENUMERATED.0, ENUMERATED.1));
+    let mut clock =
+        seconds(args, || search.enumerate(&problem, Enumeration::USUAL.0, Enumeration::USUAL.1));
     let mut trace: Vec<TracePoint> = Vec::new();
     for &budget in &args.budgets {
         while !budget.is_spent(clock, search.generation()) {

@@ -81,7 +81,7 @@ fn picture(folder: &Path, name: &str, times: &Times) -> Result<(), Box<dyn Error
         let plot = LinePlot {
             title: name,
             subtitle: "median of the seeds, thin: best and worst · one thread",
-            x_label: "seconds",
+            x_label: "seconds that each was given",
             y_label: &format!("RMSE on the search grid, at no more than {COST} cycles"),
             lines: &lines,
             theme,

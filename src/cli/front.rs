@@ -2,7 +2,6 @@ use super::run_folder::{self, Which};
 use super::subject::Subject;
 use super::{Common, Failure, tiers};
 use crate::cost::Profile;
-use crate::dataset::Dataset;
 use crate::report::table::{Published, front_table};
 use crate::search::{Front, MemberRecord, Run};
 use crate::stability::Questions;
@@ -38,9 +37,5 @@ fn count_registers(run: &Run, front: &mut Front) {
 
 /// The incumbents, if the dataset is still where the run found it.
 pub(super) fn incumbents(run: &Run) -> Option<Vec<Published>> {
-    let whole = Dataset::load(&run.dataset).ok().filter(|data| data.hash() == run.dataset_hash)?;
-    let names = run.names();
-    let choose = |dataset: &Dataset| Ok(dataset.select(Some(&names.inputs), Some(&names.outputs))?);
-    let subject = Subject::new(whole, run.scene.clone(), choose).ok()?;
-    subject.published(&run.dataset, &Profile::find(&run.gpu).ok()?).ok()
+    Subject::of_run(run).ok()?.published_for(run)
 }

@@ -1,7 +1,8 @@
 //! `lgp render`: spheres shaded with the truth, a formula, and their difference.
 
 use super::run_folder::{self, Which};
-use super::{Common, Exit, Failure, emit, output, report};
+use super::subject::Subject;
+use super::{Common, Exit, Failure, emit, output};
 use crate::dataset::{Dataset, replace_file};
 use crate::program::Program;
 use crate::report::plot::{PlotError, Theme};
@@ -89,7 +90,7 @@ pub fn run(args: &Args, common: &Common) -> Result<(), Failure> {
     if let Some(path) = &args.dataset {
         run.dataset = path.clone();
     }
-    let dataset = report::dataset(&run)
+    let Subject { dataset, .. } = Subject::of_run(&run)
         .map_err(|problem| Failure::new(Exit::Input, anyhow::Error::msg(problem)))?;
     let path = args.output.clone().unwrap_or_else(|| args.run.join("spheres.png"));
     output::check_writable(&path)?;

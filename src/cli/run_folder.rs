@@ -10,6 +10,7 @@ use crate::report::table::{Published, cycles_text, error_text, front_table};
 use crate::report::verdict::verdict_lines;
 use crate::search::{Census, Front, FrontMember, Run, Search, TracePoint, trace_csv};
 use std::collections::BTreeSet;
+use std::ffi::OsStr;
 use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 
@@ -33,6 +34,7 @@ pub fn create(folder: &Path) -> Result<(), Failure> {
 /// A run's folder before the run is done.
 pub struct PartialRun {
     folder: PathBuf,
+    resumed: bool,
     trace: Vec<TracePoint>,
     /// The lines of the run that this one goes on with.
     earlier_trace: String,
@@ -46,6 +48,7 @@ impl PartialRun {
         let census = if resumed { Census::load(folder)? } else { None };
         Ok(PartialRun {
             folder: folder.to_owned(),
+            resumed,
             trace: Vec::new(),
             earlier_trace: earlier.flatten().unwrap_or_default(),
             census: census.unwrap_or_default(),
@@ -53,12 +56,13 @@ impl PartialRun {
         })
     }
 
-    /// Notes a generation; checkpoints now and then.
+    /// Notes a generation; checkpoints now and then, with what the run is so far.
     pub fn record(
         &mut self,
         point: TracePoint,
         search: &Search,
         dataset: &Dataset,
+        so_far: impl FnOnce() -> Run,
     ) -> Result<(), Failure> {
         // Later on little changes: points a twentieth apart are enough.
         let enough = self.trace.last().is_none_or(|last| point.seconds >= last.seconds * 1.05);
@@ -70,10 +74,32 @@ impl PartialRun {
             self.trace.push(point);
         }
         if self.last_checkpoint.elapsed() >= CHECKPOINT_INTERVAL {
-            search.save(&self.folder, dataset)?;
+            self.checkpoint(&so_far(), search, dataset)?;
             self.last_checkpoint = Instant::now();
         }
         Ok(())
+    }
+
+    /// Writes what `--resume` goes on with. Fronts of an earlier run are not this one's: without
+    /// them its folder is known for that of a search that has not ended.
+    fn checkpoint(&self, run: &Run, search: &Search, dataset: &Dataset) -> Result<(), Failure> {
+        if !self.resumed {
+            for file in [FRONT, MINIMAX_FRONT] {
+                let _ = std::fs::remove_file(self.folder.join(file));
+            }
+        }
+        write(&self.folder, "trace.csv", self.trace_text().as_bytes())?;
+        self.census.save(&self.folder)?;
+        search.save(&self.folder, dataset)?;
+        Ok(run.save(&self.folder)?)
+    }
+
+    fn trace_text(&self) -> String {
+        let trace = trace_csv(&self.trace);
+        match self.earlier_trace.is_empty() {
+            true => trace,
+            false => self.earlier_trace.clone() + trace.split_once('\n').map_or("", |(_, t)| t),
+        }
     }
 
     /// Writes what the run leaves behind.
@@ -86,16 +112,8 @@ impl PartialRun {
         search: &Search,
         dataset: &Dataset,
     ) -> Result<(), Failure> {
-        let trace = trace_csv(&self.trace);
-        let trace = match self.earlier_trace.is_empty() {
-            true => trace,
-            false => self.earlier_trace.clone() + trace.split_once('\n').map_or("", |(_, t)| t),
-        };
-        write(&self.folder, "trace.csv", trace.as_bytes())?;
-        self.census.save(&self.folder)?;
-        write_fronts(&self.folder, run, front, minimax, incumbents)?;
-        search.save(&self.folder, dataset)?;
-        Ok(run.save(&self.folder)?)
+        self.checkpoint(run, search, dataset)?;
+        write_fronts(&self.folder, run, front, minimax, incumbents)
     }
 }
 
@@ -112,8 +130,8 @@ pub fn write_fronts(
     write(folder, MINIMAX_FRONT, minimax.to_json(&names).as_bytes())?;
     write(folder, "front.txt", front_table(front, incumbents, &names.outputs).as_bytes())?;
     let snippets = folder.join("snippets");
-    let _ = std::fs::remove_dir_all(&snippets);
     create(&snippets)?;
+    remove_snippets(&snippets);
     for (i, member) in front.members.iter().enumerate() {
         for &language in Language::ALL {
             let file = format!("snippets/{:02}.{}", i + 1, language.extension());
@@ -121,6 +139,20 @@ pub fn write_fronts(
         }
     }
     Ok(())
+}
+
+/// Removes what an earlier run has written there, and nothing else.
+fn remove_snippets(folder: &Path) {
+    let is_ours = |path: &PathBuf| {
+        let part =
+            |part: Option<&OsStr>| part.and_then(OsStr::to_str).unwrap_or_default().to_owned();
+        let (stem, extension) = (part(path.file_stem()), part(path.extension()));
+        stem.len() >= 2
+            && stem.bytes().all(|byte| byte.is_ascii_digit())
+            && Language::ALL.iter().any(|language| language.extension() == extension)
+    };
+    let paths = folder.read_dir().into_iter().flatten().flatten().map(|entry| entry.path());
+    paths.filter(is_ours).for_each(|path| drop(std::fs::remove_file(path)));
 }
 
 /// The front as a picture.

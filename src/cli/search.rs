@@ -8,7 +8,8 @@ use crate::grammar::Grammar;
 use crate::program::{Draft, parse};
 use crate::report::table::{Published, front_table};
 use crate::search::{
-    Front, MemberRecord, Problem, Requirement, Run, Search, Settings, TracePoint, Transform,
+    Enumeration, Front, MemberRecord, Problem, Requirement, Run, Search, Settings, TracePoint,
+    Transform,
 };
 use crate::suggest::did_you_mean;
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
@@ -125,10 +126,7 @@ pub fn run(args: &Args, common: &Common) -> Result<(), Failure> {
     }
     let mut partial = PartialRun::new(&folder, args.resume)?;
     let interrupted = watch_for_interrupts();
-    let seconds = evolve(args, common, &mut search, &problem, &mut partial, before, &interrupted)?;
-    let front = Front::of(&search, &problem);
-    let minimax = Front::in_measure(&search, &problem, Measure::Max);
-    let run = Run {
+    let describe = |search: &Search, seconds: f64| Run {
         version: env!("CARGO_PKG_VERSION").to_owned(),
         command: std::env::args().collect(),
         dataset: args.dataset.clone(),
@@ -148,6 +146,14 @@ pub fn run(args: &Args, common: &Common) -> Result<(), Failure> {
         enumeration: search.enumeration(),
         sources: Vec::new(),
     };
+    let seconds =
+        evolve(args, common, &mut search, &problem, before, &interrupted, |point, search| {
+            let seconds = point.seconds;
+            partial.record(point, search, dataset, || describe(search, seconds))
+        })?;
+    let front = Front::of(&search, &problem);
+    let minimax = Front::in_measure(&search, &problem, Measure::Max);
+    let run = describe(&search, seconds);
     partial.finish(&run, &front, &minimax, &incumbents, &search, dataset)?;
     report::write(&folder, common)?;
     show(common, &run, &front, &incumbents, &folder)?;
@@ -161,14 +167,11 @@ pub fn run(args: &Args, common: &Common) -> Result<(), Failure> {
     tiers::check(&run, &front)
 }
 
-/// Without `--exhaustive`, formulas up to this cost are all tried if they are no more than this.
-const USUALLY_ENUMERATED: (f64, usize) = (1.0, 4000);
-
-/// With it, so many at most: a few minutes.
+/// With `--exhaustive`, so many structures at most: a few minutes.
 const MOST_ENUMERATED: usize = 200_000;
 
 fn enumerate(search: &mut Search, problem: &Problem, asked: Option<f64>) -> Result<(), Failure> {
-    let (cost, most) = asked.map_or(USUALLY_ENUMERATED, |cost| (cost, MOST_ENUMERATED));
+    let (cost, most) = asked.map_or(Enumeration::USUAL, |cost| (cost, MOST_ENUMERATED));
     search.enumerate(problem, cost, most);
     if asked.is_some() && search.enumeration().is_none() {
         let message = format!(
@@ -267,9 +270,9 @@ fn evolve(
     common: &Common,
     search: &mut Search,
     problem: &Problem,
-    partial: &mut PartialRun,
     before: f64,
     interrupted: &AtomicBool,
+    mut record: impl FnMut(TracePoint, &Search) -> Result<(), Failure>,
 ) -> Result<f64, Failure> {
     let default = args.generations.is_none().then_some(Duration::from_secs(60));
     let time = args.time.or(default);
@@ -293,7 +296,7 @@ fn evolve(
         };
         show_progress(&bar, &point, progress);
         let stalled = progress_made.as_mut().is_some_and(|improvement| improvement.stalled(&point));
-        partial.record(point, search, problem.dataset)?;
+        record(point, search)?;
         if stalled {
             break;
         }

@@ -5,7 +5,7 @@ use crate::cost::Profile;
 use crate::dataset::{Comparable, Dataset, incumbents_for, load_incumbents};
 use crate::report::table::Published;
 use crate::scene::Scene;
-use crate::search::FrontMember;
+use crate::search::{FrontMember, Run};
 use std::path::Path;
 
 /// A dataset as a command takes it.
@@ -35,6 +35,24 @@ impl Subject {
             None => choose(&whole)?,
         };
         Ok(Subject { whole, scene, dataset })
+    }
+
+    /// What a run was of, if that is still where the run found it; if not, what is wrong.
+    pub fn of_run(run: &Run) -> Result<Subject, String> {
+        let whole = Dataset::load(&run.dataset).map_err(|error| error.to_string())?;
+        if whole.hash() != run.dataset_hash {
+            let path = run.dataset.display();
+            return Err(format!("{path}: not the data that the run was made with, by its hash"));
+        }
+        let names = run.names();
+        let choose =
+            |dataset: &Dataset| Ok(dataset.select(Some(&names.inputs), Some(&names.outputs))?);
+        Subject::new(whole, run.scene.clone(), choose).map_err(|failure| failure.error.to_string())
+    }
+
+    /// The incumbents beside a run's dataset, costed as the run does, if they can be read.
+    pub fn published_for(&self, run: &Run) -> Option<Vec<Published>> {
+        self.published(&run.dataset, &Profile::find(&run.gpu).ok()?).ok()
     }
 
     /// The incumbents that define every output, scored.

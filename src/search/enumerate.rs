@@ -36,10 +36,16 @@ pub struct Enumeration {
     pub structures: usize,
 }
 
+impl Enumeration {
+    /// The cost up to which `lgp search` enumerates unasked, if the structures are no more than this.
+    pub const USUAL: (f64, usize) = (1.0, 4000);
+}
+
 impl Search {
-    /// Takes in all programs of at most `cost` cycles, fitted; nothing where they differ in more than
+    /// Takes in all programs of at most `cost` cycles, as far as the budget goes, fitted; nothing where they differ in more than
     /// `most` structures.
     pub fn enumerate(&mut self, problem: &Problem, cost: f64, most: usize) {
+        let cost = cost.min(self.settings.max_cost);
         let Some(structures) = structures(problem, cost, most) else { return };
         let members = best_of(&structures, problem);
         let drafts: Vec<Draft> = members.iter().map(|member| member.draft.clone()).collect();
@@ -77,6 +83,9 @@ fn best_of(structures: &[Draft], problem: &Problem) -> Vec<Member> {
     near.into_par_iter().map_init(Fitter::default, finish).flatten().collect()
 }
 
+/// Drafts that are grown together.
+const PARENTS: usize = 1024;
+
 /// Every structure, or nothing where there are more than `most`.
 fn structures(problem: &Problem, cost: f64, most: usize) -> Option<Vec<Draft>> {
     let mut known = HashSet::new();
@@ -84,17 +93,19 @@ fn structures(problem: &Problem, cost: f64, most: usize) -> Option<Vec<Draft>> {
     let mut latest = leaves(problem.all.inputs(), problem.all.outputs());
     latest.retain(|draft| known.insert(hash(draft)));
     while !latest.is_empty() {
-        let grown: Vec<Vec<(u64, Draft)>> =
-            latest.par_iter().map(|draft| grown(draft, problem, cost)).collect();
-        all.append(&mut latest);
-        for (hash, draft) in grown.into_iter().flatten() {
-            if known.insert(hash) {
-                latest.push(draft);
+        let mut next = Vec::new();
+        // Of many a parent the children are known already: they are not kept for long.
+        for parents in latest.chunks(PARENTS) {
+            let grown: Vec<Vec<(u64, Draft)>> =
+                parents.par_iter().map(|draft| grown(draft, problem, cost)).collect();
+            let new = grown.into_iter().flatten().filter(|(hash, _)| known.insert(*hash));
+            next.extend(new.map(|(_, draft)| draft));
+            if known.len() > most {
+                return None;
             }
         }
-        if all.len() + latest.len() > most {
-            return None;
-        }
+        all.append(&mut latest);
+        latest = next;
     }
     Some(all)
 }

@@ -97,9 +97,12 @@ impl Front {
             drafts.extend(search.contenders().into_iter().cloned());
             drafts = promising(drafts, problem);
         }
-        let polished: Vec<FrontMember> =
-            drafts.par_iter().filter_map(|draft| polish(draft, problem, &names, measure)).collect();
-        let mut front = Front::from_members(polished, measure);
+        // What is brought into its range by polishing may have become too dear.
+        let polished = drafts
+            .par_iter()
+            .filter_map(|draft| polish(draft, problem, &names, measure))
+            .filter(|member| member.cost <= search.settings().max_cost);
+        let mut front = Front::from_members(polished.collect(), measure);
         front.judge(&problem.questions(), &names);
         front
     }

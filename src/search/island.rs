@@ -85,7 +85,7 @@ struct Workshop {
 impl Island {
     pub fn new(number: usize, settings: &Settings) -> Island {
         let Way { share, by_family } = WAYS[number % WAYS.len()];
-        let max_cost = (settings.max_cost * share).ceil();
+        let max_cost = (settings.max_cost * share).ceil().min(settings.max_cost);
         // As many individuals on each island.
         let crowd = settings.bucket_size as f64 * (settings.max_cost + 1.0);
         let size = crowd / (max_cost + 1.0) * if by_family { FAMILY_BUCKET } else { 1.0 };

@@ -53,7 +53,7 @@ fn check(one: &Run, other: &Run) -> Result<(), Incompatible> {
     let differences = [
         ("dataset", data(one), data(other)),
         ("columns", names(one), names(other)),
-        ("requirements", requirements(one), requirements(other)),
+        ("requirements", one.requirements(), other.requirements()),
         ("grammar", one.grammar.clone(), other.grammar.clone()),
         ("GPU profile", one.gpu.clone(), other.gpu.clone()),
         ("error measure", one.settings.measure.to_string(), other.settings.measure.to_string()),
@@ -62,16 +62,6 @@ fn check(one: &Run, other: &Run) -> Result<(), Incompatible> {
         None => Ok(()),
         Some((what, one, other)) => Err(Incompatible { what, one, other }),
     }
-}
-
-/// What the formulas of a run must be, in any order.
-fn requirements(run: &Run) -> String {
-    let names = run.names();
-    let mut texts: Vec<String> =
-        run.settings.requirements.iter().map(|one| one.text(&names)).collect();
-    texts.sort();
-    texts.dedup();
-    if texts.is_empty() { "none".to_owned() } else { texts.join(",") }
 }
 
 /// What is said of all searches together depends on their set alone.

@@ -9,7 +9,7 @@ use crate::program::{Names, parse};
 use crate::scene::Scene;
 use crate::stability::VerdictRecord;
 use serde::{Deserialize, Serialize};
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
 
 /// Everything needed to repeat a run, and how far it came.
@@ -137,6 +137,17 @@ impl Front {
 }
 
 impl Run {
+    /// What its formulas must be, as `--require` takes it, whatever their order was; or `none`.
+    pub fn requirements(&self) -> String {
+        let names = self.names();
+        let texts = self.settings.requirements.iter().map(|one| one.text(&names));
+        let texts: BTreeSet<String> = texts.collect();
+        match texts.is_empty() {
+            true => "none".to_owned(),
+            false => texts.into_iter().collect::<Vec<_>>().join(","),
+        }
+    }
+
     /// The names of its inputs and outputs.
     pub fn names(&self) -> Names {
         let [inputs, outputs] = [&self.inputs, &self.outputs]
@@ -229,7 +240,7 @@ impl Search {
     }
 }
 
-const CHECKPOINT_MAGIC: &[u8] = b"LGPSTATE1";
+const CHECKPOINT_MAGIC: &[u8] = b"LGPSTATE2";
 
 /// The text of `trace.csv`.
 pub fn trace_csv(points: &[TracePoint]) -> String {

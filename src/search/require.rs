@@ -81,7 +81,7 @@ impl Requirement {
                 Ok(Requirement::Half { error })
             }
             "ends" => Ok(Requirement::Ends { output, input: input()? }),
-            "uses" => match Op::from_name(value) {
+            "uses" if output.is_none() => match Op::from_name(value) {
                 Some(op) => Ok(Requirement::Operation(op)),
                 None => Ok(Requirement::Input(input()?)),
             },
@@ -93,10 +93,14 @@ impl Requirement {
 impl Requirement {
     /// What [`Requirement::parse`] reads as this.
     pub fn text(&self, names: &Names) -> String {
-        let of = |output: Option<u16>| {
-            output.map_or_else(String::new, |o| format!("{}.", names.outputs[usize::from(o)]))
+        // A damaged record may name what there is not.
+        let named = |names: &[String], i: u16| {
+            names.get(usize::from(i)).cloned().unwrap_or_else(|| format!("?{i}"))
         };
-        let input = |input: u16| &names.inputs[usize::from(input)];
+        let of = |output: Option<u16>| {
+            output.map_or_else(String::new, |o| format!("{}.", named(&names.outputs, o)))
+        };
+        let input = |input: u16| named(&names.inputs, input);
         match *self {
             Requirement::Range { output, low, high } => {
                 format!("{}range={low}..{high}", of(output))
@@ -334,9 +338,10 @@ pub(super) fn with_ends(dataset: &Dataset, requirements: &[Requirement]) -> Spli
 }
 
 fn rows_at_ends(split: &Split, dataset: &Dataset, input: u16) -> Vec<u32> {
-    let domain = dataset.inputs[usize::from(input)].domain;
+    // As columns hold them: 1.6 is no f32.
+    let domain = dataset.inputs[usize::from(input)].domain.map(|end| end as f32);
     let column = &split.columns[usize::from(input)];
-    let at_end = |row: &u32| domain.contains(&f64::from(column[*row as usize]));
+    let at_end = |row: &u32| domain.contains(&column[*row as usize]);
     (0..split.rows() as u32).filter(at_end).collect()
 }
 

@@ -135,6 +135,49 @@ fn a_reader_can_choose_look_and_copy() {
     }
 }
 
+#[test]
+fn a_comparison_draws_fronts_and_traces() {
+    let Some(browser) = chromium() else {
+        eprintln!("skipped: there is no Chromium (Debian: apt-get install chromium)");
+        return;
+    };
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("comparison.html");
+    let runs = ["results/dfg", "results/dfg"];
+    lgp(&["report", runs[0], runs[1], "--output", path.to_str().unwrap()]);
+    let page = std::fs::read_to_string(&path).unwrap();
+    let used = page.replacen("<head>", &format!("<head>{WATCH}"), 1).replacen(
+        "</body>",
+        &format!("<script>{COMPARED}</script></body>"),
+        1,
+    );
+    std::fs::write(&path, used).unwrap();
+    for width in [1400, 420] {
+        let (dom, console) = dom(browser, &path, width);
+        let seen = seen(&dom);
+        assert!(console.is_empty(), "{console:?}");
+        assert_eq!(seen["problems"], serde_json::json!([]));
+        for plot in ["fronts", "volume", "error"] {
+            assert!(seen[plot].as_u64().unwrap() >= 1, "{plot}: {seen}");
+        }
+        assert!(seen["medians"].as_str().unwrap().contains(".00598"), "{seen}");
+        assert_ne!(seen["before"], seen["after"], "another cost, the same plot");
+    }
+}
+
+/// What a comparison shows.
+const COMPARED: &str = "
+const paths = (id) => document.querySelectorAll(`#${id} svg path`);
+const seen = Object.fromEntries(['fronts', 'volume', 'error'].map((id) => [id, paths(id).length]));
+seen.medians = document.getElementById('comparison').textContent;
+seen.before = document.getElementById('error').innerHTML;
+const cost = document.querySelectorAll('#controls select')[2];
+cost.value = 0; cost.dispatchEvent(new Event('change'));
+seen.after = document.getElementById('error').innerHTML;
+seen.problems = window.problems;
+document.body.dataset.seen = encodeURIComponent(JSON.stringify(seen));
+";
+
 /// The errors that the page computes of its samples by JavaScript are those that were quoted.
 fn errors_agree(check: &Value) {
     let formulas = check.as_array().unwrap();

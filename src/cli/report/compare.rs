@@ -39,6 +39,7 @@ pub(super) fn write(folders: &[PathBuf], path: &Path) -> Result<usize, Failure> 
         ),
         gpu: first.gpu.clone(),
         costs: TRACE_COSTS.to_vec(),
+        same_budget: runs.iter().all(|(run, _)| run.settings.max_cost == first.settings.max_cost),
         groups: groups(runs),
     };
     let html = page::comparison(&comparison);
@@ -58,6 +59,7 @@ fn check_comparable(
             ("scene", run.scene == first.scene),
             ("outputs", run.outputs == first.outputs),
             ("GPU profile", run.gpu == first.gpu),
+            ("error measure", run.settings.measure == first.settings.measure),
         ];
         if let Some((what, _)) = what.iter().find(|(_, same)| !same) {
             let (folder, first) = (folder.display(), folders[0].display());
@@ -99,7 +101,6 @@ fn traits(run: &Run) -> Vec<(&'static str, String)> {
     let enumerated = run.enumeration.map_or(0.0, |enumeration| enumeration.cost);
     vec![
         ("grammar", run.grammar.clone()),
-        ("loss", settings.measure.to_string()),
         ("inputs", inputs.join(" ")),
         ("max. cycles", settings.max_cost.to_string()),
         ("islands", settings.islands.to_string()),
@@ -107,7 +108,7 @@ fn traits(run: &Run) -> Vec<(&'static str, String)> {
         ("bucket", settings.bucket_size.to_string()),
         ("exhaustive", enumerated.to_string()),
         ("random share", settings.immigrants.to_string()),
-        ("requirements", format!("{:?}", settings.requirements)),
+        ("requirements", run.requirements()),
         ("transforms", format!("{:?}", settings.transforms)),
         ("searches merged", run.sources.len().to_string()),
         ("lgp", run.version.clone()),

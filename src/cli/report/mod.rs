@@ -7,7 +7,7 @@ mod timing;
 
 use super::run_folder::{self, Which};
 use super::subject::Subject;
-use super::{Common, Exit, Failure, front};
+use super::{Common, Exit, Failure};
 use crate::dataset::{Dataset, replace_file};
 use crate::report::page;
 use crate::report::table::Published;
@@ -70,6 +70,9 @@ pub fn run(args: &Args, common: &Common) -> Result<(), Failure> {
             }
             (folder.join(FILE), write_all(&gathered, folder)?)
         }
+        _ if args.measure || args.dataset.is_some() => {
+            return Err(Failure::usage("--measure and --dataset are for the page of one run"));
+        }
         folders => {
             let page = args.output.clone().unwrap_or_else(|| PathBuf::from("comparison.html"));
             let bytes = compare::write(folders, &page)?;
@@ -111,8 +114,8 @@ fn gather(folder: &Path, elsewhere: Option<&Path>, common: &Common) -> Result<Ga
     if let Some(path) = elsewhere {
         run.dataset = path.to_owned();
     }
-    let dataset = match dataset(&run) {
-        Ok(dataset) => Some(dataset),
+    let subject = match Subject::of_run(&run) {
+        Ok(subject) => Some(subject),
         Err(problem) if elsewhere.is_some() => {
             return Err(Failure::new(Exit::Input, anyhow::Error::msg(problem)));
         }
@@ -123,35 +126,23 @@ fn gather(folder: &Path, elsewhere: Option<&Path>, common: &Common) -> Result<Ga
             None
         }
     };
-    let known = dataset.as_ref().and_then(|_| front::incumbents(&run));
-    Ok(Gathered { run, front, minimax, dataset, published: known.unwrap_or_default() })
+    let published = subject.as_ref().and_then(|subject| subject.published_for(&run));
+    let dataset = subject.map(|subject| subject.dataset);
+    Ok(Gathered { run, front, minimax, dataset, published: published.unwrap_or_default() })
 }
 
-/// `run.ron` is written last: without it a search has not ended.
+/// Without fronts a search has not ended.
 fn check_whole(folder: &Path) -> Result<(), Failure> {
-    if !folder.is_dir() || folder.join("run.ron").exists() {
+    let holds = |file: &str| folder.join(file).exists();
+    if !folder.is_dir() || (holds("run.ron") && holds("front.json")) {
         return Ok(());
     }
-    let begun = ["checkpoint.bin", "front.json"].iter().any(|file| folder.join(file).exists());
-    let reason = match begun {
+    let reason = match holds("checkpoint.bin") {
         true => {
             "the search in it was killed or has not ended; go on with it by `lgp search … --resume`"
         }
         false => "give a folder that `lgp search` or `lgp merge` wrote",
     };
     let folder = folder.display();
-    Err(Failure::new(Exit::Input, anyhow::anyhow!("{folder}: holds no run.ron: {reason}")))
-}
-
-/// The run's columns of its dataset, if that is still what it was; if not, what is wrong.
-pub(super) fn dataset(run: &Run) -> Result<Dataset, String> {
-    let whole = Dataset::load(&run.dataset).map_err(|error| error.to_string())?;
-    if whole.hash() != run.dataset_hash {
-        let path = run.dataset.display();
-        return Err(format!("{path}: not the data that the run was made with, by its hash"));
-    }
-    let names = run.names();
-    let choose = |dataset: &Dataset| Ok(dataset.select(Some(&names.inputs), Some(&names.outputs))?);
-    let subject = Subject::new(whole, run.scene.clone(), choose);
-    subject.map(|subject| subject.dataset).map_err(|failure| failure.error.to_string())
+    Err(Failure::new(Exit::Input, anyhow::anyhow!("{folder}: holds no whole run: {reason}")))
 }

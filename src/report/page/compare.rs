@@ -14,6 +14,8 @@ pub struct Comparison {
     pub gpu: String,
     /// Cycles at which errors are listed.
     pub costs: Vec<f64>,
+    /// Whether all may spend the same cycles: only then do hypervolumes compare.
+    pub same_budget: bool,
     pub groups: Vec<Group>,
 }
 

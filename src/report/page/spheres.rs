@@ -24,10 +24,16 @@ struct Surroundings {
     light: String,
 }
 
+/// What the parts of a vector can hold.
+const MOST_INPUTS: usize = 4;
+
 impl PageSpheres {
     /// Nothing if no scene is known for the columns, or the samples are no even grid.
     pub fn of(dataset: &Dataset) -> Option<PageSpheres> {
         let Dataset { inputs, outputs, .. } = dataset;
+        if inputs.len() > MOST_INPUTS {
+            return None;
+        }
         let surroundings = |&environment: &Environment| {
             let [given, light] = Spheres::of(inputs, outputs, environment)?.glsl();
             Some(Surroundings { name: environment.to_string(), given, light })

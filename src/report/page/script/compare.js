@@ -57,7 +57,8 @@ function drawFronts() {
 function drawTimes() {
   const traced = (runs) => runs.every(({ trace }) => trace);
   const any = data.groups.some(({ runs }) => traced(runs));
-  for (const id of ["volume", "error"]) byId(id).closest("section").hidden = !any;
+  byId("volume").closest("section").hidden = !any || !data.same_budget;
+  byId("error").closest("section").hidden = !any;
   if (!any) return;
   const times = data.groups.map(({ runs }) => (traced(runs) ? [...new Set(runs.flatMap(({ trace }) => trace[shown.time]))].filter((t) => t > 0).sort((a, b) => a - b) : []));
   const xScale = logarithmicOver(times.flat(), 0.01);
@@ -67,7 +68,7 @@ function drawTimes() {
   const volumes = bands((run, t) => at(run, run.trace.hypervolume, t));
   const all = volumes.flat().flatMap((p) => [p[2], p[3]]);
   drawBands(byId("volume"), xScale, linear(Math.min(...all), Math.max(...all)), UNITS[shown.time], "hypervolume: cycles × log error", volumes, false);
-  const errors = bands((run, t) => at(run, run.trace.errors[shown.cost], t));
+  const errors = bands((run, t) => at(run, run.trace.errors[run.trace.costs.indexOf(data.costs[shown.cost])] ?? [], t));
   drawBands(byId("error"), xScale, logarithmicOver(errors.flat().flatMap((p) => [p[2], p[3]])), UNITS[shown.time], `RMSE at ${data.costs[shown.cost]} cycles at most, before polishing`, errors, false);
 }
 
@@ -75,7 +76,7 @@ function drawComparison() {
   const head = ["", "runs", "seconds", "candidates", "hypervolume", ...data.costs.map((cost) => `≤ ${cost}`)];
   const rows = data.groups.map(({ label, runs }, g) => [
     html("span", { style: `color:${LINES[g % 5]};font-weight:600` }, label), String(runs.length), short(median(runs.map((r) => r.seconds))), String(Math.round(median(runs.map((r) => r.considered)))),
-    runs.every((r) => r.trace) ? short(median(runs.map((r) => r.trace.hypervolume.at(-1)))) : "–", ...data.costs.map((cost) => errorText(median(runs.map((r) => errorAt(r, cost))))),
+    data.same_budget && runs.every((r) => r.trace) ? short(median(runs.map((r) => r.trace.hypervolume.at(-1)))) : "–", ...data.costs.map((cost) => errorText(median(runs.map((r) => errorAt(r, cost))))),
   ]);
   byId("comparison").replaceChildren(html("thead", {}, html("tr", {}, head.map((text) => html("th", {}, text)))), html("tbody", {}, rows.map((row) => html("tr", {}, row.map((cell) => html("td", {}, cell))))));
 }

@@ -27,25 +27,25 @@ const spheres = (() => {
     const { given, light } = environments[lights.environment];
     const inputs = data.inputs.length, outputs = data.outputs.length;
     const type = (count) => (count === 1 ? "float" : `vec${count}`);
-    const pixel = "n.x, n.y, n.z, turned.x, turned.y, turned.z, turned.w";
-    const cells = table.axes.map(([a, b, c, d], i) => `cell(${parts("g", inputs)[i]}, vec4(${[a, b, c, d].map(literal).join(", ")}), ${table.grid[i]})`);
+    const pixel = "n.x, n.y, n.z, lgp_turned.x, lgp_turned.y, lgp_turned.z, lgp_turned.w";
+    const cells = table.axes.map(([a, b, c, d], i) => `lgp_cell(${parts("g", inputs)[i]}, vec4(${[a, b, c, d].map(literal).join(", ")}), ${table.grid[i]})`);
     return `#version 300 es
 precision highp float;
 precision highp sampler2D;
-uniform float size;
-uniform vec4 turned;
-uniform sampler2D table;
-out vec4 colour;
+uniform float lgp_size;
+uniform vec4 lgp_turned;
+uniform sampler2D lgp_table;
+out vec4 lgp_colour;
 ${given}
 ${glsl}
 ${light}
-vec2 cell(float place, vec4 axis, int points) {
+vec2 lgp_cell(float place, vec4 axis, int points) {
     if (place < axis.y) { return vec2(0.0, clamp((place - axis.x)/(axis.y - axis.x), 0.0, 1.0)); }
     float along = (min(place, axis.w) - axis.y)/(axis.z - axis.y);
     float low = min(floor(along), float(points - 3));
     return vec2(low + 1.0, clamp(along - low, 0.0, 1.0));
 }
-float read(int o, vec2 cells[${inputs}]) {
+float lgp_read(int o, vec2 cells[${inputs}]) {
     int grid[${inputs}] = int[${inputs}](${table.grid.join(", ")});
     float sum = 0.0;
     for (int corner = 0; corner < ${1 << inputs}; ++corner) {
@@ -57,24 +57,24 @@ float read(int o, vec2 cells[${inputs}]) {
             index = index*grid[axis] + int(cells[axis].x) + upper;
         }
         int at = o*${points} + index;
-        sum += weight*texelFetch(table, ivec2(at % ${WIDTH}, at / ${WIDTH}), 0).r;
+        sum += weight*texelFetch(lgp_table, ivec2(at % ${WIDTH}, at / ${WIDTH}), 0).r;
     }
     return sum;
 }
 void main() {
-    vec2 p = (2.0*vec2(mod(gl_FragCoord.x, size), gl_FragCoord.y)/size - 1.0)/${literal(data.spheres.radius)};
+    vec2 p = (2.0*vec2(mod(gl_FragCoord.x, lgp_size), gl_FragCoord.y)/lgp_size - 1.0)/${literal(data.spheres.radius)};
     float beyond = max(length(p), 1.0);
     vec2 q = p/beyond;
     vec3 n = vec3(q, sqrt(max(1.0 - dot(q, q), 0.0)));
     ${type(inputs)} g = ${nameIn(given)}(${pixel});
     vec2 cells[${inputs}] = vec2[${inputs}](${cells.join(", ")});
     ${type(outputs)} made = ${nameIn(glsl)}(${parts("g", inputs).join(", ")});
-    vec3 truth = ${nameIn(light)}(${[pixel, ...data.outputs.map((_, o) => `read(${o}, cells)`)].join(", ")});
+    vec3 truth = ${nameIn(light)}(${[pixel, ...data.outputs.map((_, o) => `lgp_read(${o}, cells)`)].join(", ")});
     vec3 shown = ${nameIn(light)}(${[pixel, ...parts("made", outputs)].join(", ")});
-    int which = int(gl_FragCoord.x/size);
+    int which = int(gl_FragCoord.x/lgp_size);
     vec3 c = which == 0 ? truth : which == 1 ? shown : ${literal(data.spheres.difference_times)}*abs(shown - truth);
-    float coverage = clamp((1.0 - length(p))*${literal(data.spheres.radius)}*size/2.0 + 0.5, 0.0, 1.0);
-    colour = vec4(clamp(c, 0.0, 1.0)*coverage, coverage);
+    float coverage = clamp((1.0 - length(p))*${literal(data.spheres.radius)}*lgp_size/2.0 + 0.5, 0.0, 1.0);
+    lgp_colour = vec4(clamp(c, 0.0, 1.0)*coverage, coverage);
 }
 `;
   }
@@ -104,8 +104,8 @@ void main() {
     Object.assign(canvas, { width: 3 * size, height: size });
     gl.viewport(0, 0, 3 * size, size);
     gl.useProgram(program);
-    gl.uniform1f(gl.getUniformLocation(program, "size"), size);
-    gl.uniform4f(gl.getUniformLocation(program, "turned"), lights.roughness, lights.f0, lights.omega, lights.exposure);
+    gl.uniform1f(gl.getUniformLocation(program, "lgp_size"), size);
+    gl.uniform4f(gl.getUniformLocation(program, "lgp_turned"), lights.roughness, lights.f0, lights.omega, lights.exposure);
     gl.clearColor(0, 0, 0, 0);
     gl.clear(gl.COLOR_BUFFER_BIT);
     gl.drawArrays(gl.TRIANGLES, 0, 3);
@@ -121,6 +121,16 @@ void main() {
   return { canvas, draw, pixels };
 })();
 
+/** Draws them, or hides their section where the shader does not compile or the context is lost. */
+function drawOrHide(size) {
+  try {
+    spheres.draw(size);
+  } catch (error) {
+    console.warn(error);
+    byId("spheres").hidden = true;
+  }
+}
+
 function drawSpheres() {
   const box = byId("spheres");
   box.hidden = !spheres || !formula() || data.outputs.length > 4;
@@ -129,20 +139,20 @@ function drawSpheres() {
   if (!box.firstChild) {
     const slider = (label, key, from, to, step) => {
       const shown = html("output", {}, short(lights[key]));
-      const input = html("input", { type: "range", min: from, max: to, step, value: lights[key], "data-light": key, input: () => { lights[key] = +input.value; shown.textContent = short(lights[key]); spheres.draw(size()); } });
+      const input = html("input", { type: "range", min: from, max: to, step, value: lights[key], "data-light": key, input: () => { lights[key] = +input.value; shown.textContent = short(lights[key]); drawOrHide(size()); } });
       return html("label", {}, label, input, shown);
     };
     const has = (name) => data.inputs.some((input) => input.name === name);
     const environments = data.spheres.environments;
     box.append(html("h2", {}, "Spheres"), html("div", { class: "row" }, ...[
-      environments.length > 1 ? choice("environment", environments.map(({ name }) => name), lights.environment, (i) => { lights.environment = i; spheres.draw(size()); }) : null,
+      environments.length > 1 ? choice("environment", environments.map(({ name }) => name), lights.environment, (i) => { lights.environment = i; drawOrHide(size()); }) : null,
       slider("roughness", "roughness", 0.02, 1, 0.01),
       data.spheres.uses_f0 ? slider("F0", "f0", 0.02, 1, 0.01) : null,
       has("omega") ? slider("light's angle (rad)", "omega", 0.02, 1, 0.01) : null,
       slider("exposure (stops)", "exposure", -4, 6, 0.1),
     ].filter(Boolean)), html("div", { class: "spheres" }, spheres.canvas), html("div", { class: "sphere-names" }, html("span", {}, "truth"), html("span", {}, "formula"), html("span", {}, `|difference| × ${data.spheres.difference_times}`)));
   }
-  spheres.draw(size());
+  drawOrHide(size());
 }
 
 /** The three spheres' pixels, for whoever compares them with `lgp render`. */
