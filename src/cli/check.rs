@@ -1,8 +1,8 @@
-use super::eval::assigned_outputs;
+use super::eval::{assigned_outputs, settled};
 use super::run_folder::{self, Which};
 use super::{Common, Exit, Failure};
 use crate::dataset::{Column, Dataset};
-use crate::program::{Names, Parsed, Program, parse_open};
+use crate::program::{Names, Program, parse_open};
 use crate::report::examination;
 use crate::report::table::cycles_text;
 use crate::report::verdict::claim_text;
@@ -57,6 +57,10 @@ pub fn run(args: &Args, common: &Common) -> Result<(), Failure> {
     }
     let path = Path::new(&args.formula);
     if path.is_dir() || !args.formula.contains('=') {
+        if args.dataset.is_some() || !args.domain.is_empty() {
+            let message = "a folder's formulas are checked over the domain of its run; give a formula for a dataset or --domain";
+            return Err(Failure::usage(message));
+        }
         return check_front(args, path, common);
     }
     let (program, names, questions) = match &args.dataset {
@@ -68,18 +72,14 @@ pub fn run(args: &Args, common: &Common) -> Result<(), Failure> {
 
 fn of_dataset(args: &Args, path: &Path) -> Result<(Program, Names, Questions), Failure> {
     let dataset = Dataset::load(path)?;
-    let Parsed { program, names, free } = assigned_outputs(&args.formula, &dataset.names())?;
-    if let Some(constant) = free.first() {
-        let message = format!("`${}` is a free constant; give it a value", constant.name);
-        return Err(Failure::new(Exit::Input, anyhow::Error::msg(message)));
-    }
+    let (program, names) = settled(assigned_outputs(&args.formula, &dataset.names())?)?;
     let dataset = dataset.select(Some(&names.inputs), Some(&names.outputs))?;
     let questions = questions(args, &dataset.inputs, &dataset.outputs)?;
     Ok((program, names, questions))
 }
 
 fn of_domain(args: &Args) -> Result<(Program, Names, Questions), Failure> {
-    let Parsed { program, names, .. } = parse_open(&args.formula, &[])?;
+    let (program, names) = settled(parse_open(&args.formula, &[])?)?;
     let column = |name: &String, domain| Column { name: name.clone(), unit: "1".into(), domain };
     let mut inputs = Vec::new();
     for name in &names.inputs {
@@ -93,8 +93,8 @@ fn of_domain(args: &Args) -> Result<(Program, Names, Questions), Failure> {
             Failure::usage(message)
         })?;
         let [low, high] = range(given)?;
-        if !(low.is_finite() && high.is_finite()) {
-            return Err(Failure::usage(format!("--domain {name}: both ends must be finite")));
+        if !((low as f32).is_finite() && (high as f32).is_finite()) {
+            return Err(Failure::usage(format!("--domain {name}: both ends must be finite f32s")));
         }
         inputs.push(column(name, [low, high]));
     }

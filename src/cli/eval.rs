@@ -41,13 +41,7 @@ pub fn run(args: &Args, common: &Common) -> Result<(), Failure> {
 fn read(args: &Args, subject: &Subject) -> Result<(Program, Names), Failure> {
     let names = subject.dataset.names();
     let refusal = match assigned_outputs(&args.formula, &names) {
-        Ok(Parsed { program, names, free }) if free.is_empty() => return Ok((program, names)),
-        Ok(Parsed { free, .. }) => {
-            let name = &free[0].name;
-            let message =
-                format!("`${name}` is a free constant; give it a value, or fit it with `lgp fit`");
-            return Err(Failure::new(Exit::Input, anyhow::Error::msg(message)));
-        }
+        Ok(parsed) => return settled(parsed),
         Err(error) => error,
     };
     let Some(scene) = &subject.scene else { return Err(refusal.into()) };
@@ -60,6 +54,20 @@ fn read(args: &Args, subject: &Subject) -> Result<(Program, Names), Failure> {
     match view.program(&program, &defined.outputs, &names.outputs) {
         Some(program) if view.inputs() == names.inputs => Ok((program, names)),
         _ => Err(refusal.into()),
+    }
+}
+
+/// A formula without free constants.
+pub(super) fn settled(parsed: Parsed) -> Result<(Program, Names), Failure> {
+    let Parsed { program, names, free } = parsed;
+    match free.first() {
+        None => Ok((program, names)),
+        Some(constant) => {
+            let name = &constant.name;
+            let message =
+                format!("`${name}` is a free constant; give it a value, or fit it with `lgp fit`");
+            Err(Failure::new(Exit::Input, anyhow::Error::msg(message)))
+        }
     }
 }
 

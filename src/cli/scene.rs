@@ -1,7 +1,7 @@
 use super::output::check_writable;
 use super::{Common, Failure};
 use crate::dataset::{Error, Table, replace_file};
-use crate::scene::{Logged, MOST_JOINT, Scene};
+use crate::scene::{Logged, Scene};
 use clap::Subcommand;
 use serde::Serialize;
 use std::path::{Path, PathBuf};
@@ -71,9 +71,8 @@ pub fn run(args: &Args, common: &Common) -> Result<(), Failure> {
         .map(|&index| Logged { name: &table.names[index], values: &table.columns[index] })
         .collect();
     let name = path.file_stem().unwrap_or_default().to_string_lossy();
-    let joint = !args.separate && logged.len() <= MOST_JOINT;
     let weights = weights.map(|index| table.columns[index].as_slice());
-    let scene = Scene::logged(&name, &logged, weights, args.bins.into(), joint)?;
+    let scene = Scene::logged(&name, &logged, weights, args.bins.into(), !args.separate)?;
     replace_file(&path, scene.to_ron().as_bytes())
         .map_err(|error| Failure::unwritable(&path, error))?;
     let pixels = table.columns[0].len();
@@ -82,7 +81,9 @@ pub fn run(args: &Args, common: &Common) -> Result<(), Failure> {
 }
 
 fn default_output(log: &Path) -> PathBuf {
-    Path::new(log.file_stem().unwrap_or_default()).with_extension("ron")
+    let mut name = log.file_stem().unwrap_or_default().to_owned();
+    name.push(".ron");
+    name.into()
 }
 
 fn weights(args: &FromArgs, table: &Table) -> Result<Option<usize>, Failure> {
@@ -111,6 +112,10 @@ fn columns(args: &FromArgs, table: &Table) -> Result<Vec<usize>, Failure> {
         }
         None => (0..table.names.len()).filter(|&index| table.names[index] != weight).collect(),
     };
+    if let Some(twice) = (1..indices.len()).find(|&i| indices[..i].contains(&indices[i])) {
+        let name = &table.names[indices[twice]];
+        return Err(Failure::usage(format!("--inputs names `{name}` twice")));
+    }
     match indices.is_empty() {
         true => Err(Error::NoInputs { path: args.log.clone() }.into()),
         false => Ok(indices),

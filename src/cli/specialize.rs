@@ -1,10 +1,10 @@
-use super::eval::assigned_outputs;
+use super::eval::{assigned_outputs, settled};
 use super::run_folder::{self, Which};
 use super::subject::Subject;
 use super::{Common, Exit, Failure, columns::Columns};
 use crate::cost::Profile;
 use crate::fit::Measure;
-use crate::program::{Names, Parsed, Program};
+use crate::program::{Names, Program};
 use crate::report::table::{cycles_text, error_text, front_table, title};
 use crate::scene::{Change, Specialization, Step, specialize};
 use crate::search::{Front, FrontMember, MemberRecord};
@@ -106,14 +106,8 @@ fn formula(args: &Args, subject: &Subject) -> Result<(Program, Vec<String>), Fai
             Failure::new(Exit::Input, anyhow::Error::msg(message))
         });
     }
-    let Parsed { program, names, free } = assigned_outputs(&args.formula, &subject.whole.names())?;
-    match free.first() {
-        None => Ok((program, names.outputs)),
-        Some(constant) => {
-            let message = format!("`${}` is a free constant; give it a value", constant.name);
-            Err(Failure::new(Exit::Input, anyhow::Error::msg(message)))
-        }
-    }
+    let (program, names) = settled(assigned_outputs(&args.formula, &subject.whole.names())?)?;
+    Ok((program, names.outputs))
 }
 
 struct Task<'a> {

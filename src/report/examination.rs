@@ -3,7 +3,8 @@
 use super::verdict::{number_text, share_text, status_text};
 use crate::program::{Arg, Names, Program, effective, print_expression};
 use crate::stability::{
-    At, Blame, Break, Cause, ClaimRecord, Examination, Finding, Liberty, Loss, Place, Status, Trend,
+    At, Blame, Break, Cause, ClaimRecord, Examination, Finding, JUMP, Liberty, Loss, Place, Status,
+    Trend,
 };
 use serde_json::{Value, json};
 use std::fmt::Write;
@@ -125,7 +126,9 @@ impl Page<'_> {
                     "  for {bound} in f16, {count} of {total} operations must stay f32:\n{each}"
                 )
             }
-            None => format!("  f32 throughout does not come within {bound} of f64\n"),
+            None => format!(
+                "  even f32, with halves for arguments and outputs only, does not come within {bound}\n"
+            ),
         };
         text
     }
@@ -213,9 +216,6 @@ impl Page<'_> {
         text
     }
 }
-
-/// What counts as a jump rather than a kink.
-const JUMP: f64 = 1e-5;
 
 fn cause(cause: Cause) -> &'static str {
     match cause {

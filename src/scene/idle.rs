@@ -84,12 +84,16 @@ pub(super) fn first_idle(program: &Program, dataset: &Dataset) -> Option<Idle> {
             if !(holds(&dataset.search) && holds(&dataset.validation)) {
                 continue;
             }
-            let evidence = match holds_over(&difference, &domain, case.within, slack) {
+            // A guard against division by zero acts by less than any slack: a proof has none.
+            let evidence = match holds_over(&difference, &domain, case.within) {
                 true => Evidence::Proved,
                 false => Evidence::Sampled,
             };
-            let program = without(program, i, case.becomes)?;
-            return Some(Idle { op: instr.op(), evidence, program });
+            let left = without(program, i, case.becomes)?;
+            if evidence == Evidence::Sampled && loses_finiteness(program, &left, &domain) {
+                continue;
+            }
+            return Some(Idle { op: instr.op(), evidence, program: left });
         }
     }
     None
@@ -120,11 +124,23 @@ const BOXES: usize = 4096;
 
 /// Whether it is proved, for the interpreter's arithmetic, that a program's output stays in a range
 /// wherever its inputs are in theirs.
-fn holds_over(program: &Program, domain: &[Interval], [low, high]: [f32; 2], slack: f32) -> bool {
+fn holds_over(program: &Program, domain: &[Interval], [low, high]: [f32; 2]) -> bool {
     let bounds = [Bound::AtLeast(low.into()), Bound::AtMost(high.into())];
     let claims = bounds.map(|bound| Claim::of(0, bound));
-    let limits = Limits { slack: slack.into(), boxes: BOXES, ..Limits::new(Rounding::Exact) };
+    let limits = Limits { slack: 0.0, boxes: BOXES, ..Limits::new(Rounding::Exact) };
     prove(program, domain, &claims, &limits).iter().all(|status| *status == Status::Proved)
+}
+
+/// Whether an output is refuted to be finite that was not before.
+fn loses_finiteness(before: &Program, after: &Program, domain: &[Interval]) -> bool {
+    let limits = Limits { boxes: BOXES, ..Limits::new(Rounding::Exact) };
+    (0..before.outputs.len()).any(|output| {
+        let claim = [Claim::of(output, Bound::Finite)];
+        let is_refuted = |program: &Program| {
+            matches!(prove(program, domain, &claim, &limits)[0], Status::Refuted { .. })
+        };
+        is_refuted(after) && !is_refuted(before)
+    })
 }
 
 /// The program with an instruction's result replaced.
@@ -180,6 +196,9 @@ mod tests {
             // Between the samples, at both ends, it does act.
             ("y = max(x, 0.001)", Some((Sampled, "y = x"))),
             ("y = max(x, 0.3)", None),
+            // A guard that hardly acts is one all the same.
+            ("y = 1/max(x, 0.0000001)", None),
+            ("y = sqrt(max(x - 0.0000001, 0))", None),
             ("y = saturate(2*x)", None),
         ] {
             let found = first_idle(&parse(text, &names).unwrap(), &line(100));

@@ -4,7 +4,7 @@ use super::histogram::bin;
 use super::{Error, Histogram, Scene};
 
 /// Inputs that one histogram may hold together by default: with more, most bins of a log are empty.
-pub const MOST_JOINT: usize = 3;
+const MOST_JOINT: usize = 3;
 
 /// A column of a log: an input's value in each pixel.
 #[derive(Clone, Copy, Debug)]
@@ -15,8 +15,8 @@ pub struct Logged<'a> {
 
 impl Scene {
     /// The scene of logged pixels: inputs that never change are fixed, the others counted in `bins`
-    /// equal bins each, over the range that occurs; together if `joint`, which keeps what one
-    /// input has to do with another, else each by itself. Each pixel counts by its weight; none is
+    /// equal bins each, over the range that occurs; together if `joint` and they are few, which
+    /// keeps what one input has to do with another, else each by itself. Each pixel counts by its weight; none is
     /// one for all. What weighs nothing has not occurred.
     ///
     /// # Errors
@@ -54,7 +54,7 @@ impl Scene {
                 false => varying.push((*column, [shortest(low), shortest(high)])),
             }
         }
-        let groups: Vec<&[(Logged, [f64; 2])]> = match joint {
+        let groups: Vec<&[(Logged, [f64; 2])]> = match joint && varying.len() <= MOST_JOINT {
             true => vec![&varying[..]],
             false => varying.chunks(1).collect(),
         };

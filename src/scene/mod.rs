@@ -48,7 +48,7 @@ mod view;
 pub use error::Error;
 pub use histogram::Histogram;
 pub use idle::Evidence;
-pub use logged::{Logged, MOST_JOINT};
+pub use logged::Logged;
 pub use quantisation::Quantisation;
 pub use specialize::{Change, Specialization, Step, specialize};
 pub use view::View;

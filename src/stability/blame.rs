@@ -81,7 +81,10 @@ impl Trace<'_> {
             let i = usize::from(i);
             let instr = &self.program.instrs[i];
             let here = self.error(arg);
-            let inherits = |&&from: &&Arg| self.error(from) >= here * INHERITED && here > 0.0;
+            let inherits = |&&from: &&Arg| {
+                // No more than all can be lost, whatever a division makes of it.
+                self.error(from).min(1.0) >= here.min(1.0) * INHERITED && here > 0.0
+            };
             let worst = instr
                 .args()
                 .iter()
@@ -107,7 +110,7 @@ impl Trace<'_> {
             () if found.is_nan() || exact.is_nan() => Cause::Undefined,
             () if found.is_infinite() && exact.is_infinite() => Cause::Undefined,
             () if found.is_infinite() => Cause::Overflow,
-            () if found.abs() < self.least && found != exact => Cause::Underflow,
+            () if found.abs() < self.least && found != exact && !sums => Cause::Underflow,
             () if condition > 8.0 && sums => Cause::Cancellation,
             () if condition > 8.0 => Cause::Condition,
             () => Cause::Rounding,

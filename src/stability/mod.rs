@@ -49,6 +49,6 @@ pub use precision::{Loss, Precision};
 pub use prove::{Bound, Claim, Limits, Status, prove};
 pub use record::{ClaimRecord, StatusRecord, Value, VerdictRecord};
 pub use rounding::Rounding;
-pub use smoothness::{Break, Smoothness, Trend};
+pub use smoothness::{Break, JUMP, Smoothness, Trend};
 pub use variants::{Liberty, Spread, spreads};
 pub use verdict::{Finding, Questions, Topic, Verdict};

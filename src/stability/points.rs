@@ -7,7 +7,7 @@ pub fn points_in(domain: &[Interval]) -> Vec<Vec<f32>> {
     all(&axes(domain, 2048, 14))
 }
 
-/// Points of each side whose product is `total` or fewer: half of them evenly spaced, the ends among
+/// Points of each side, three at least, whose product is `total` or fewer if that can be: half of them evenly spaced, the ends among
 /// them, half of them nearer and nearer to both ends, down to `2^-finest` of the width. Of a side
 /// that is a point, that point.
 pub(super) fn axes(domain: &[Interval], total: usize, finest: u32) -> Vec<Vec<f32>> {
@@ -38,9 +38,25 @@ fn axis(side: Interval, count: usize, finest: u32) -> Vec<f32> {
     points
 }
 
-/// Calls `visit` at every combination of the axes' points.
+/// Combinations that are visited at most.
+const MOST: usize = 1 << 17;
+
+/// Calls `visit` at every combination of the axes' points, or at some that are spread by golden ratios
+/// where they are too many.
 pub(super) fn each(axes: &[Vec<f32>], mut visit: impl FnMut(&[f32])) {
     let mut point = vec![0.0; axes.len()];
+    let count = axes.iter().try_fold(1usize, |product, axis| product.checked_mul(axis.len()));
+    if count.is_none_or(|count| count > MOST) {
+        for index in 0..MOST {
+            for (k, (x, axis)) in point.iter_mut().zip(axes).enumerate() {
+                let share =
+                    ((index + 1) as f64 * (0.618_033_988_75 + k as f64 * 0.414_213_562_37)).fract();
+                *x = axis[((share * axis.len() as f64) as usize).min(axis.len() - 1)];
+            }
+            visit(&point);
+        }
+        return;
+    }
     for index in 0..axes.iter().map(Vec::len).product() {
         let mut rest: usize = index;
         for (x, axis) in point.iter_mut().zip(axes) {

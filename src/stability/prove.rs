@@ -44,6 +44,8 @@ pub struct Limits {
     pub rounding: Rounding,
     /// By how much a value may leave a range.
     pub slack: f64,
+    /// The part of the slack that a proof may not use, since what is made of the value rounds again.
+    pub margin: f64,
     /// Boxes looked at, at most.
     pub boxes: usize,
 }
@@ -52,7 +54,7 @@ impl Limits {
     /// A slack of 1e-5: `exp2(0)` may be a few ulp above 1 on a GPU. As many boxes as take some tens
     /// of milliseconds.
     pub fn new(rounding: Rounding) -> Limits {
-        Limits { rounding, slack: 1e-5, boxes: 20_000 }
+        Limits { rounding, slack: 1e-5, margin: 0.0, boxes: 20_000 }
     }
 }
 
@@ -142,7 +144,7 @@ pub fn prove(
             enclosure.evaluate(program, &part.domain);
             for (i, claim) in marked(claims, part.undecided) {
                 let bounds = enclosure.bounds(program, program.outputs[claim.output]);
-                if claim.holds(bounds, limits.slack) {
+                if claim.holds(bounds, limits.slack - limits.margin) {
                     part.undecided &= !(1 << i);
                 }
             }

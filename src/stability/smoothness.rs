@@ -33,7 +33,7 @@ pub enum Trend {
 /// What was seen along lines through the domain.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Smoothness {
-    /// For each output and input, what jumps most and what bends most, if anything does.
+    /// For each output and input what jumps most, or what bends most where nothing jumps.
     pub breaks: Vec<Break>,
     /// By output and input.
     pub trends: Vec<Vec<Trend>>,
@@ -43,10 +43,13 @@ pub struct Smoothness {
 const LINES: usize = 81;
 const STEPS: usize = 128;
 
-/// Changes that rounding may make, relative to the largest value.
-const ROUNDING: f64 = 1e-6;
+/// Changes that rounding of `f64` may make, relative to the larger value.
+const ROUNDING: f64 = 1e-12;
 
-/// Bends in slope that count, relative to the largest value over the width.
+/// Jumps that count.
+pub const JUMP: f64 = 1e-5;
+
+/// Bends in slope that count, times the width.
 const KINK: f64 = 1e-3;
 
 impl Smoothness {
@@ -120,7 +123,7 @@ impl View<'_> {
             }
         }
         let notable = |[jump, kink]: [Option<Break>; 2]| {
-            let jump = jump.filter(|one| one.jump.abs() > ROUNDING * 10.0);
+            let jump = jump.filter(|one| one.jump.abs() > JUMP);
             kink.filter(|one| one.kink.abs() * width > KINK && jump.is_none()).or(jump)
         };
         let trend = |[up, down]: [bool; 2]| match (up, down) {
@@ -173,6 +176,7 @@ impl View<'_> {
             Op::Abs => i64::from(value(0) < 0.0),
             Op::Min | Op::Max | Op::Select => i64::from(value(0) < value(1)),
             Op::Step => i64::from(value(1) >= value(0)),
+            Op::Atan2 => i64::from(value(0) < 0.0 && value(1) < 0.0),
             Op::Saturate => i64::from(value(0) > 0.0) + i64::from(value(0) > 1.0),
             Op::Floor | Op::Fract => value(0).floor().clamp(-1e18, 1e18) as i64,
             Op::Sign => i64::from(value(0) > 0.0) - i64::from(value(0) < 0.0),

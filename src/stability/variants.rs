@@ -123,7 +123,13 @@ fn rewritten(program: &Program, liberty: Liberty) -> Program {
                     let rest = draft.push(Op::Neg, &args[1..2]);
                     draft.push(Op::Mad, &[a, b, rest])
                 }
-                None => draft.push(Op::Sub, &args),
+                None => match inner(args[1], Op::Mul, &draft) {
+                    Some((a, b)) => {
+                        let minus = draft.push(Op::Neg, &[a]);
+                        draft.push(Op::Mad, &[minus, b, args[0]])
+                    }
+                    None => draft.push(Op::Sub, &args),
+                },
             },
             (Liberty::Reciprocal, Op::Div) => {
                 let reciprocal = draft.push(Op::Rcp, &args[1..2]);

@@ -104,8 +104,8 @@ impl Verdict {
         let claims = questions.claims();
         let topics: Vec<Topic> = claims.iter().map(|(topic, _)| *topic).collect();
         let decide = |rounding: Rounding, of_energy: bool, left: &[bool]| -> Vec<Option<Status>> {
-            let slack = questions.slack - if of_energy { SUM_ROUNDING } else { 0.0 };
-            let limits = Limits { slack, ..Limits::new(rounding) };
+            let margin = if of_energy { SUM_ROUNDING } else { 0.0 };
+            let limits = Limits { slack: questions.slack, margin, ..Limits::new(rounding) };
             let wanted = |i: &usize| left[*i] && (topics[*i] == Topic::Energy) == of_energy;
             let places: Vec<usize> = (0..claims.len()).filter(wanted).collect();
             let mut decided = vec![None; claims.len()];
