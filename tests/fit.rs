@@ -1,8 +1,8 @@
 //! Derivatives against finite differences, and fits whose answer is known.
 
 use lgp::dataset::Split;
-use lgp::eval::Samples;
-use lgp::fit::{Differentiated, Fitter, Stop};
+use lgp::eval::{Samples, Tape};
+use lgp::fit::{Differentiated, Fitter, Rounds, Stop, minimax_free};
 use lgp::op::Op;
 use lgp::program::{Arg, Draft, Names, Program, Scope, parse_template};
 
@@ -104,4 +104,51 @@ fn what_is_not_finite_is_not_fitted() {
     let (loss, constants) = fit("f = $a*log2(x - 2)", &samples);
     assert!(loss.is_nan());
     assert_eq!(constants[0], 1.0);
+}
+
+/// Chebyshev's alternation theorem, for rational functions Achieser's: e^x by (a + bx)/(1 + cx) on [−1, 1] has
+/// four extreme errors of alternating signs, all as large.
+#[test]
+fn the_least_maximum_error_of_a_rational_function_alternates() {
+    let xs: Vec<f32> = (-500..=500).map(|i| i as f32 / 500.0).collect();
+    let ys = xs.iter().map(|x| x.exp()).collect();
+    let samples = Samples::new(&Split { columns: vec![xs, ys], ..Split::default() }, 1);
+    let names = Names::new(["x"], ["y"]);
+    let template = parse_template("y = ($a + $b*x)/(1 + $c*x)", Scope::Dataset(&names)).unwrap();
+    let mut draft = template.program.into_draft();
+    let free = |index: usize| template.free.iter().any(|free| usize::from(free.index) == index);
+    // Without a pole to begin with.
+    (0..draft.consts.len()).filter(|&c| free(c)).for_each(|c| draft.consts[c] = 0.5);
+    let mut fitter = Fitter::default();
+    fitter.fit_free(&mut draft, &samples, TO_CONVERGENCE, free);
+    let largest = minimax_free(&mut fitter, &mut draft, &samples, Rounds::TO_CONVERGENCE, free);
+    let program = Program::verify(draft).unwrap();
+    let values = fitter.evaluator.outputs(&Tape::new(&program), &samples);
+    let errors = values[0].iter().zip(samples.targets(0)).map(|(f, y)| f64::from(f - y));
+    let mut extremes: Vec<f64> = Vec::new();
+    for error in errors {
+        match extremes.last_mut() {
+            Some(last) if last.signum() == error.signum() => {
+                *last = if error.abs() > last.abs() { error } else { *last }
+            }
+            _ => extremes.push(error),
+        }
+    }
+    assert_eq!(extremes.len(), 4, "{extremes:?}");
+    assert!(extremes.iter().all(|e| (e.abs() / largest - 1.0).abs() < 1e-3), "{extremes:?}");
+}
+
+/// A sample that weighs four times as much errs half as much.
+#[test]
+fn weights_count_in_the_maximum() {
+    let split = Split { columns: vec![vec![0.0, 1.0], vec![0.0, 3.0]], ..Split::default() };
+    let mut samples = Samples::new(&split, 1);
+    samples.set_weights(0, &[1.0, 4.0]);
+    let mut draft = Draft { inputs: 1, ..Draft::default() };
+    let y = draft.constant(0.1);
+    draft.outputs = vec![y];
+    let rounds = Rounds::TO_CONVERGENCE;
+    let largest = minimax_free(&mut Fitter::default(), &mut draft, &samples, rounds, |_| true);
+    // c and 2(3 − c) meet at 2.
+    assert!((draft.consts[0] - 2.0).abs() < 1e-4 && (largest - 2.0).abs() < 1e-4, "{draft:?}");
 }

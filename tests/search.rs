@@ -3,7 +3,7 @@
 use lgp::cost::Profile;
 use lgp::dataset::{Column, Dataset, Split};
 use lgp::eval::{Evaluator, Samples, Score, Tape};
-use lgp::fit::{Fitter, Stop};
+use lgp::fit::{Fitter, Measure, Stop};
 use lgp::grammar::Grammar;
 use lgp::num::Interval;
 use lgp::program::{Names, Program, Scope, parse, parse_template};
@@ -91,6 +91,34 @@ fn a_seed_repeats_a_search_at_any_number_of_threads() {
     assert_ne!(one, search(&data, "shader", 8, other).to_json(&data.names()));
 }
 
+/// A search for the maximum error goes by it, on all samples, and polishing only makes it smaller.
+#[test]
+fn the_maximum_error_can_be_searched_for() {
+    let data = dataset("dfg", &["scale", "bias"]);
+    let grammar = Grammar::find("shader").unwrap();
+    let profile = Profile::find("gcn").unwrap();
+    let settings = Settings { max_cost: 16.0, measure: Measure::Max, ..Settings::default() };
+    let problem = Problem::new(&data, &grammar, &profile, &settings);
+    let mut search = Search::new(settings);
+    (0..4).for_each(|_| search.advance(&problem));
+    let front = Front::of(&search, &problem);
+    let all = Samples::new(&data.search, 2);
+    assert!(search.archive().members().len() > 5);
+    for member in search.archive().members() {
+        let program = Program::verify(member.draft.clone()).unwrap();
+        let values = Evaluator::default().outputs(&Tape::new(&program), &all);
+        let columns = values.iter().zip([0, 1].map(|output| all.targets(output)));
+        let pairs = columns.flat_map(|(values, targets)| values.iter().zip(targets));
+        let largest = pairs.map(|(f, y)| f64::from((f - y).abs())).fold(0.0, f64::max);
+        assert!((member.loss.sqrt() / largest - 1.0).abs() < 1e-5, "{largest}");
+        // Shortened constants may cost a hundredth.
+        let as_good = |shown: &FrontMember| {
+            shown.cost <= member.cost && shown.search_error().max <= 1.011 * largest
+        };
+        assert!(front.members.iter().any(as_good), "{} {largest}", member.cost);
+    }
+}
+
 #[test]
 fn a_front_is_what_its_numbers_say() {
     let data = dataset("dfg", &["scale", "bias"]);
@@ -117,10 +145,19 @@ fn a_front_is_what_its_numbers_say() {
 
 #[test]
 fn a_resumed_search_goes_on_as_if_never_stopped() {
+    for measure in [Measure::Rmse, Measure::Max] {
+        goes_on_as_if_never_stopped(Settings {
+            migration_interval: 2,
+            measure,
+            ..Settings::default()
+        });
+    }
+}
+
+fn goes_on_as_if_never_stopped(settings: Settings) {
     let data = dataset("dfg", &["bias"]);
     let grammar = Grammar::find("shader").unwrap();
     let profile = Profile::find("gcn").unwrap();
-    let settings = Settings { migration_interval: 2, ..Settings::default() };
     let problem = Problem::new(&data, &grammar, &profile, &settings);
     let folder = tempfile::tempdir().unwrap();
     let mut search = Search::new(settings);
@@ -230,14 +267,16 @@ fn ends_are_met() {
         search: split.clone(),
         validation: split,
     };
-    let requirements = vec![Requirement::parse("ends=x", &data.names()).unwrap()];
-    let settings = Settings { max_cost: 8.0, requirements, ..Settings::default() };
-    let front = search(&data, "shader", 10, settings);
-    assert!(!front.members.is_empty());
-    for member in front.members {
-        for x in [0.0, end] {
-            let y = member.program.evaluate(&[x])[0];
-            assert!((y - x.powf(2.2)).abs() <= 3e-5, "{}: {x} → {y}", member.formula);
+    for measure in [Measure::Rmse, Measure::Max] {
+        let requirements = vec![Requirement::parse("ends=x", &data.names()).unwrap()];
+        let settings = Settings { max_cost: 8.0, requirements, measure, ..Settings::default() };
+        let front = search(&data, "shader", 10, settings);
+        assert!(!front.members.is_empty(), "{measure}");
+        for member in front.members {
+            for x in [0.0, end] {
+                let y = member.program.evaluate(&[x])[0];
+                assert!((y - x.powf(2.2)).abs() <= 3e-5, "{}: {x} → {y}", member.formula);
+            }
         }
     }
 }

@@ -65,6 +65,9 @@ struct Args {
     grammar: String,
     #[arg(long, default_value = "results/search")]
     out: PathBuf,
+    /// What the search makes small: rmse or max
+    #[arg(long, default_value = "rmse")]
+    loss: Measure,
     /// The front polished for the maximum error, too
     #[arg(long)]
     minimax: bool,
@@ -100,6 +103,9 @@ fn main() -> Result<(), Box<dyn Error>> {
             std::fs::write(folder.join(format!("{}.csv", case.name)), csv(&case.dataset))?;
         }
         return Ok(());
+    }
+    if ![Measure::Rmse, Measure::Max].contains(&args.loss) {
+        return Err("--loss is rmse or max".into());
     }
     args.budgets.sort_by(|a, b| a.partial_cmp(b).expect("budgets are ordered"));
     let wanted = |case: &&Case| args.data.is_empty() || args.data.contains(&case.name);
@@ -187,7 +193,8 @@ fn published(
 /// One search, its front noted at each budget.
 fn measure(args: &Args, case: &Case, profile: &Profile, seed: u64) -> Result<(), Box<dyn Error>> {
     let grammar = Grammar::find(&args.grammar)?;
-    let settings = Settings { seed, max_cost: args.max_cost, ..Settings::default() };
+    let settings =
+        Settings { seed, max_cost: args.max_cost, measure: args.loss, ..Settings::default() };
     let problem = Problem::new(&case.dataset, &grammar, profile, &settings);
     let mut search = Search::new(settings);
     let mut clock =
@@ -200,6 +207,10 @@ fn measure(args: &Args, case: &Case, profile: &Profile, seed: u64) -> Result<(),
                 trace.push(trace_point(&search, clock));
             }
         }
+        let front = |measure, wanted: bool| -> Vec<Member> {
+            let front = wanted.then(|| Front::in_measure(&search, &problem, measure));
+            front.iter().flat_map(|front| &front.members).map(member).collect()
+        };
         let run = Run {
             seed,
             version: env!("CARGO_PKG_VERSION").into(),
@@ -210,20 +221,15 @@ fn measure(args: &Args, case: &Case, profile: &Profile, seed: u64) -> Result<(),
             seconds: short(clock),
             generations: search.generation(),
             considered: search.counts().considered,
-            front: Front::of(&search, &problem).members.iter().map(member).collect(),
-            minimax: match args.minimax {
-                true => {
-                    let front = Front::in_measure(&search, &problem, Measure::Max);
-                    front.members.iter().map(member).collect()
-                }
-                false => Vec::new(),
-            },
+            front: front(Measure::Rmse, args.loss == Measure::Rmse),
+            minimax: front(Measure::Max, args.loss == Measure::Max || args.minimax),
             trace: trace.iter().cloned().chain([trace_point(&search, clock)]).collect(),
         };
+        let error_at = if args.loss == Measure::Max { Run::max_error_at } else { Run::error_at };
         let errors: Vec<String> =
-            TRACED.iter().map(|&cost| format!("{cost}: {:.5}", run.error_at(cost))).collect();
+            TRACED.iter().map(|&cost| format!("{cost}: {:.5}", error_at(&run, cost))).collect();
         eprintln!("{} {budget} seed {seed}: {}", case.name, errors.join("  "));
-        Runs::add(&args.out, &case.name, &case.dataset.hash(), budget, run)?;
+        Runs::add(&args.out, &case.name, &case.dataset.hash(), budget, args.loss, run)?;
     }
     Ok(())
 }

@@ -1,6 +1,7 @@
 //! What runs leave behind: a file for each dataset and budget, to which runs are added.
 
 use lgp::dataset::replace_file;
+use lgp::fit::Measure;
 use serde::{Deserialize, Serialize};
 use std::error::Error;
 use std::fmt;
@@ -53,6 +54,9 @@ pub struct Runs {
     /// Of the dataset; runs on another are forgotten.
     pub hash: String,
     pub budget: String,
+    /// What the searches made small: RMSE, or the maximum error.
+    #[serde(default)]
+    pub measure: Measure,
     pub runs: Vec<Run>,
 }
 
@@ -70,8 +74,9 @@ pub struct Run {
     pub seconds: f64,
     pub generations: u64,
     pub considered: u64,
+    /// For RMSE, where that was made small.
     pub front: Vec<Member>,
-    /// The front for the maximum error, where it was asked for.
+    /// For the maximum error, where it was made small or asked for.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub minimax: Vec<Member>,
     pub trace: Vec<TracePoint>,
@@ -111,8 +116,9 @@ impl Run {
 }
 
 impl Runs {
-    fn path(out: &Path, data: &str, budget: &str) -> PathBuf {
-        out.join(data).join(format!("{budget}.json"))
+    fn path(out: &Path, data: &str, budget: &str, measure: Measure) -> PathBuf {
+        let suffix = if measure == Measure::Max { "-max" } else { "" };
+        out.join(data).join(format!("{budget}{suffix}.json"))
     }
 
     /// Adds a run to those on disk, in place of one with its seed.
@@ -121,12 +127,14 @@ impl Runs {
         data: &str,
         hash: &str,
         budget: Budget,
+        measure: Measure,
         run: Run,
     ) -> Result<(), Box<dyn Error>> {
         let budget = budget.to_string();
-        let path = Runs::path(out, data, &budget);
+        let path = Runs::path(out, data, &budget, measure);
         let known = if path.is_file() { Some(Runs::read(&path)?) } else { None };
-        let empty = || Runs { data: data.into(), hash: hash.into(), budget, runs: Vec::new() };
+        let empty =
+            || Runs { data: data.into(), hash: hash.into(), budget, measure, runs: Vec::new() };
         let mut runs = known.filter(|known| known.hash == hash).unwrap_or_else(empty);
         runs.runs.retain(|known| known.seed != run.seed);
         runs.runs.push(run);
@@ -140,12 +148,13 @@ impl Runs {
         serde_json::from_str(&text).map_err(|error| format!("{}: {error}", path.display()).into())
     }
 
-    /// All runs of a dataset, budgets rising.
-    pub fn of(out: &Path, data: &str) -> Result<Vec<Runs>, Box<dyn Error>> {
+    /// All runs of a dataset that made some error small, budgets rising.
+    pub fn of(out: &Path, data: &str, measure: Measure) -> Result<Vec<Runs>, Box<dyn Error>> {
         let entries = std::fs::read_dir(out.join(data)).into_iter().flatten().flatten();
         let mut paths: Vec<PathBuf> = entries.map(|entry| entry.path()).collect();
         paths.retain(|path| path.extension().is_some_and(|extension| extension == "json"));
         let mut all = paths.iter().map(|path| Runs::read(path)).collect::<Result<Vec<_>, _>>()?;
+        all.retain(|runs| runs.measure == measure);
         let order = |runs: &Runs| runs.budget.parse::<Budget>().ok();
         all.sort_by(|a, b| order(a).partial_cmp(&order(b)).unwrap_or(std::cmp::Ordering::Equal));
         Ok(all)
@@ -210,9 +219,11 @@ mod tests {
             minimax: Vec::new(),
             trace: vec![TracePoint { seconds: 1.0, errors: [None; TRACED.len()] }],
         };
-        let add = |hash, run| Runs::add(folder.path(), "d", hash, Budget::Seconds(6), run).unwrap();
+        let add = |hash, run| {
+            Runs::add(folder.path(), "d", hash, Budget::Seconds(6), Measure::Rmse, run).unwrap()
+        };
         let errors = || {
-            let all = Runs::of(folder.path(), "d").unwrap();
+            let all = Runs::of(folder.path(), "d", Measure::Rmse).unwrap();
             all[0].runs.iter().map(|run| (run.seed, run.error_at(5.0))).collect::<Vec<_>>()
         };
         add("a", run(2, 0.2));

@@ -76,7 +76,7 @@ unsafe fn accumulate_in<L: Lanes>(
 ) {
     let output = |index: u16| chunk.source(chunk.tape.outputs[usize::from(index)]);
     for (o, entries) in jacobian.entries[..jacobian.outputs].iter().enumerate() {
-        let weights = chunk.rows_of(chunk.samples.weights(o));
+        let weights = chunk.rows_of(chunk.samples.weight(o));
         let residual = Residual {
             values: output(o as u16),
             targets: chunk.rows_of(chunk.samples.target(o)),

@@ -68,7 +68,7 @@ by_isa! {
 #[inline(always)]
 unsafe fn accumulate_in<L: Lanes>(chunk: &Chunk, loss: &mut Loss) {
     for (o, &output) in chunk.tape.outputs.iter().enumerate() {
-        let weights = chunk.rows_of(chunk.samples.weights(o));
+        let weights = chunk.rows_of(chunk.samples.weight(o));
         let values = chunk.source(output);
         let targets = chunk.rows_of(chunk.samples.target(o));
         let free = chunk.samples.free(o).map(|free| chunk.rows_of(free));

@@ -126,7 +126,15 @@ impl Samples {
         &bytemuck::cast_slice(self.target(output))[..self.rows]
     }
 
-    pub(super) fn weights(&self, output: usize) -> &[Block] {
+    /// What the samples weigh for an output.
+    ///
+    /// # Panics
+    /// If there is no such output.
+    pub fn weights(&self, output: usize) -> &[f32] {
+        &bytemuck::cast_slice(self.weight(output))[..self.rows]
+    }
+
+    pub(super) fn weight(&self, output: usize) -> &[Block] {
         self.column(self.inputs + self.outputs + output)
     }
 

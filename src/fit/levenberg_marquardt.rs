@@ -16,8 +16,8 @@ pub struct Stop {
 #[derive(Clone, Debug, Default)]
 pub struct Fitter {
     pub evaluator: Evaluator,
-    derivative: Differentiated,
-    tape: Tape,
+    pub(super) derivative: Differentiated,
+    pub(super) tape: Tape,
     current: NormalEquations,
     trial: NormalEquations,
     constants: Vec<f32>,

@@ -12,7 +12,7 @@ pub enum Measure {
     /// Root mean square over the samples.
     #[default]
     Rmse,
-    /// The largest absolute error. Searched for by RMSE, then polished ([`crate::fit::minimax`]).
+    /// The largest absolute error ([`crate::fit::minimax`]).
     Max,
     /// Root mean square, the samples weighted as the dataset says.
     Weighted,

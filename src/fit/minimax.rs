@@ -1,40 +1,43 @@
 //! The least maximum error.
 
+use super::linear_programs::by_linear_programs;
 use super::shorten::{MOST_DIGITS, rounded};
 use super::{Fitter, Stop};
 use crate::eval::{Samples, Tape, Values};
 use crate::program::{Draft, Program};
 
-/// When reweighting ends.
+/// How much is done for the least maximum error.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Rounds {
+    /// Times that samples are weighted anew.
     pub most: u32,
-    /// Rounds without a gain.
-    pub patience: u32,
-    /// Between two reweightings.
+    /// Between two of them.
     pub steps: Stop,
+    /// Linear programs that are solved then, at most.
+    pub programs: u32,
+    /// The error that is to be beaten: what stays far above it is given up.
+    pub wanted: f64,
 }
 
 impl Rounds {
-    /// Until nothing is gained.
-    pub const TO_CONVERGENCE: Rounds =
-        Rounds { most: 120, patience: 12, steps: Stop { max_steps: 6, min_gain: 1e-5 } };
+    /// Until next to nothing is gained.
+    pub const TO_CONVERGENCE: Rounds = Rounds {
+        most: 8,
+        steps: Stop { max_steps: 3, min_gain: 1e-4 },
+        programs: 40,
+        wanted: f64::INFINITY,
+    };
 }
 
 /// Fits every constant so that the largest absolute error over all samples and outputs is small, from
-/// the constants that it has, and gives that error: least squares, in which samples gain
+/// the constants that it has, and gives that error. First by least squares, in which samples gain
 /// weight by their error, round by round (Lawson 1961, "Contributions to the theory of linear least
-/// maximum approximation"). Never worse than what it starts from. The samples' weights are
-/// neither used nor kept.
+/// maximum approximation"), then by linear programs. Never worse than what it starts from. Errors count
+/// times the square roots of their samples' weights.
 ///
 /// # Panics
 /// As [`Fitter::fit`].
-pub fn minimax(
-    fitter: &mut Fitter,
-    program: &mut Draft,
-    samples: &mut Samples,
-    rounds: Rounds,
-) -> f64 {
+pub fn minimax(fitter: &mut Fitter, program: &mut Draft, samples: &Samples, rounds: Rounds) -> f64 {
     minimax_free(fitter, program, samples, rounds, |_| true)
 }
 
@@ -42,37 +45,47 @@ pub fn minimax(
 pub fn minimax_free(
     fitter: &mut Fitter,
     program: &mut Draft,
-    samples: &mut Samples,
+    samples: &Samples,
     rounds: Rounds,
     is_free: impl Fn(usize) -> bool + Copy,
 ) -> f64 {
-    let mut weights = vec![vec![1.0f32; samples.rows()]; samples.outputs()];
+    let mut best = by_weights(fitter, program, samples, rounds, is_free);
+    if best <= rounds.wanted * NEAR {
+        best = by_linear_programs(fitter, program, samples, rounds.programs, is_free, best);
+    }
+    best
+}
+
+fn by_weights(
+    fitter: &mut Fitter,
+    program: &mut Draft,
+    samples: &Samples,
+    rounds: Rounds,
+    is_free: impl Fn(usize) -> bool + Copy,
+) -> f64 {
+    let given = |output| samples.weights(output).to_vec();
+    let mut weights: Vec<Vec<f32>> = (0..samples.outputs()).map(given).collect();
+    let mut weighted = samples.clone();
     let mut values = Values::default();
     let mut trial = program.clone();
     let (mut mean, mut best) = errors(fitter, &trial, samples, &mut values);
-    let mut idle = 0;
     for _ in 0..rounds.most {
-        if !mean.is_finite() || idle == rounds.patience || program.consts.is_empty() {
+        if best > rounds.wanted * FAR || !mean.is_finite() || program.consts.is_empty() {
             break;
         }
         for (output, weights) in weights.iter_mut().enumerate() {
-            let pairs = values.column(output).iter().zip(samples.targets(output));
-            for (weight, (f, y)) in weights.iter_mut().zip(pairs) {
-                *weight *= (f - y).abs() / mean as f32 + LEAST_GROWTH;
+            for (weight, error) in weights.iter_mut().zip(scaled(samples, &values, output)) {
+                *weight *= (error.abs() / mean) as f32 + LEAST_GROWTH;
             }
         }
         normalise(&mut weights);
         for (output, weights) in weights.iter().enumerate() {
-            samples.set_weights(output, weights);
+            weighted.set_weights(output, weights);
         }
-        fitter.fit_free(&mut trial, samples, rounds.steps, is_free);
+        fitter.fit_free(&mut trial, &weighted, rounds.steps, is_free);
         let largest;
         (mean, largest) = errors(fitter, &trial, samples, &mut values);
-        idle += 1;
         if largest < best {
-            if largest < best * (1.0 - ENOUGH) {
-                idle = 0;
-            }
             best = largest;
             program.copy_from(&trial);
         }
@@ -80,11 +93,13 @@ pub fn minimax_free(
     best
 }
 
+/// Times the error wanted: from beyond the first a least-squares fit, from beyond the second one with weights
+/// hardly ever comes down to it.
+const FAR: f64 = 3.0;
+const NEAR: f64 = 1.3;
+
 /// So that a sample that happens to be met exactly can come back.
 const LEAST_GROWTH: f32 = 0.05;
-
-/// A gain smaller than this share is none.
-const ENOUGH: f64 = 1e-3;
 
 /// Rounds constants one after the other, each to the fewest decimal digits with which the largest
 /// error stays within `(1 + allowance)` of what it was. Gives that error.
@@ -126,7 +141,7 @@ fn normalise(weights: &mut [Vec<f32>]) {
 }
 
 /// The mean and the largest absolute error; both infinite if any output is not finite.
-fn errors(
+pub(super) fn errors(
     fitter: &mut Fitter,
     program: &Draft,
     samples: &Samples,
@@ -138,14 +153,24 @@ fn errors(
     fitter.evaluator.outputs_into(&Tape::new(&program), samples, values);
     let (mut sum, mut largest) = (0.0, 0.0f64);
     for output in 0..samples.outputs() {
-        for (f, y) in values.column(output).iter().zip(samples.targets(output)) {
-            let error = f64::from((f - y).abs());
+        for error in scaled(samples, values, output) {
             if !error.is_finite() {
                 return (f64::INFINITY, f64::INFINITY);
             }
-            sum += error;
-            largest = largest.max(error);
+            sum += error.abs();
+            largest = largest.max(error.abs());
         }
     }
     (sum / (samples.rows() * samples.outputs()) as f64, largest)
+}
+
+/// An output's errors, times the square roots of the weights.
+pub(super) fn scaled(
+    samples: &Samples,
+    values: &Values,
+    output: usize,
+) -> impl Iterator<Item = f64> {
+    let pairs = values.column(output).iter().zip(samples.targets(output));
+    let weighed = pairs.zip(samples.weights(output));
+    weighed.map(|((f, y), weight)| f64::from(f - y) * f64::from(*weight).sqrt())
 }

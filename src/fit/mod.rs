@@ -1,7 +1,9 @@
 //! Constants: how a program's are fitted to samples.
 
+mod chebyshev;
 mod derivative;
 mod levenberg_marquardt;
+mod linear_programs;
 mod measure;
 mod minimax;
 mod model;

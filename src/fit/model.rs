@@ -76,7 +76,7 @@ fn fit_within(
         let mut loss = fitter.fit_free(program, samples, TO_CONVERGENCE, is_free);
         if measure == Measure::Max && loss.is_finite() {
             let rounds = Rounds::TO_CONVERGENCE;
-            loss = minimax_free(fitter, program, &mut samples.clone(), rounds, is_free);
+            loss = minimax_free(fitter, program, samples, rounds, is_free);
         }
         let outside = free.iter().position(|parameter| {
             let [low, high] = parameter.bounds;

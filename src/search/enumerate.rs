@@ -10,7 +10,7 @@ use super::vary::{insertions, random_constant};
 use super::{Problem, Search};
 use crate::archive::Member;
 use crate::cost::CostScratch;
-use crate::fit::{Fitter, Stop};
+use crate::fit::{Fitter, Measure, Rounds, Stop, minimax};
 use crate::program::{Arg, Constants, Draft, structural_hash};
 use crate::simplify::Simplifier;
 use rand::SeedableRng;
@@ -78,6 +78,10 @@ fn best_of(structures: &[Draft], problem: &Problem) -> Vec<Member> {
     });
     let finish = |fitter: &mut Fitter, mut member: Member| {
         member.loss = fitter.fit(&mut member.draft, &problem.all, ON_ALL) * problem.scale();
+        if problem.measure == Measure::Max {
+            let rounds = Rounds::TO_CONVERGENCE;
+            member.loss = minimax(fitter, &mut member.draft, &problem.all, rounds).powi(2);
+        }
         Some(member).filter(|member| problem.accepts(&member.draft))
     };
     near.into_par_iter().map_init(Fitter::default, finish).flatten().collect()

@@ -87,8 +87,8 @@ impl Front {
         Front::in_measure(search, problem, problem.measure)
     }
 
-    /// [`Front::of`], polished and judged by another measure than the search's. For the maximum error,
-    /// which a search finds by way of RMSE, the islands' best compete as well.
+    /// [`Front::of`], polished and judged by any measure. For the maximum error, which other searches find
+    /// only by way of theirs, the islands' best compete as well.
     pub fn in_measure(search: &Search, problem: &Problem, measure: Measure) -> Front {
         let names = problem.dataset.names();
         let archive = search.archive().members().iter().map(|member| &member.draft);

@@ -1,11 +1,12 @@
 //! An island: a population, and the life of a candidate on it.
 
 use super::population::{Individual, Population};
-use super::vary::{Variation, random_draft};
-use super::{Counts, Problem, Settings};
+use super::vary::{Rates, Variation, random_draft};
+use super::{Counts, Fate, Problem, Settings};
 use crate::archive::{Archive, Member};
 use crate::cost::CostScratch;
-use crate::fit::{Fitter, Stop};
+use crate::eval::Samples;
+use crate::fit::{Fitter, Measure, Rounds, Stop, minimax};
 use crate::op::Op;
 use crate::program::{Arg, Constants, Draft, effective_into, structural_hash};
 use crate::simplify::Simplifier;
@@ -24,6 +25,14 @@ const FIRST_STEPS: Stop = Stop { max_steps: 3, min_gain: 1e-3 };
 const MORE_STEPS: Stop = Stop { max_steps: 14, min_gain: 1e-3 };
 const ALL_SAMPLES: Stop = Stop { max_steps: 8, min_gain: 1e-3 };
 
+/// A quick look at the least maximum error.
+const LEVELLING: Rounds = Rounds {
+    most: 3,
+    steps: Stop { max_steps: 2, min_gain: 1e-3 },
+    programs: 4,
+    wanted: f64::INFINITY,
+};
+
 /// After the first steps a candidate this many times worse (in mean square) than what it must beat is
 /// hopeless.
 const HOPELESS: f64 = 6.0;
@@ -38,17 +47,20 @@ struct Way {
     share: f64,
     /// Individuals compete within their family only.
     by_family: bool,
+    /// Where the maximum error is to be small: individuals compete by it. The others go on by RMSE, which
+    /// is found out sooner, and send what they find.
+    by_maximum: bool,
 }
 
 const WAYS: [Way; 8] = [
-    Way { share: 1.0, by_family: false },
-    Way { share: 0.3, by_family: true },
-    Way { share: 0.6, by_family: false },
-    Way { share: 0.2, by_family: true },
-    Way { share: 1.0, by_family: false },
-    Way { share: 0.4, by_family: true },
-    Way { share: 1.0, by_family: false },
-    Way { share: 0.8, by_family: true },
+    Way { share: 1.0, by_family: false, by_maximum: false },
+    Way { share: 0.3, by_family: true, by_maximum: false },
+    Way { share: 0.6, by_family: false, by_maximum: true },
+    Way { share: 0.2, by_family: true, by_maximum: false },
+    Way { share: 1.0, by_family: false, by_maximum: false },
+    Way { share: 0.4, by_family: true, by_maximum: false },
+    Way { share: 1.0, by_family: false, by_maximum: true },
+    Way { share: 0.8, by_family: true, by_maximum: false },
 ];
 
 /// Of the cost budget, for the number of candidates.
@@ -63,6 +75,9 @@ pub(super) struct Island {
     /// As the last barrier left it, and what this island has found since.
     pub archive: Archive,
     pub counts: Counts,
+    /// Whether losses in its population are squares of the maximum error, not means of squares.
+    pub by_maximum: bool,
+    rates: Rates,
     /// Hashes of structures, the low bits counting tries.
     seen: Vec<u32>,
     #[serde(skip)]
@@ -84,7 +99,7 @@ struct Workshop {
 
 impl Island {
     pub fn new(number: usize, settings: &Settings) -> Island {
-        let Way { share, by_family } = WAYS[number % WAYS.len()];
+        let Way { share, by_family, by_maximum } = WAYS[number % WAYS.len()];
         let max_cost = (settings.max_cost * share).ceil().min(settings.max_cost);
         // As many individuals on each island.
         let crowd = settings.bucket_size as f64 * (settings.max_cost + 1.0);
@@ -93,6 +108,8 @@ impl Island {
             population: Population::new(max_cost, by_family, size.round().max(1.0) as usize),
             archive: Archive::default(),
             counts: Counts::default(),
+            by_maximum: by_maximum && settings.measure == Measure::Max,
+            rates: Rates::default(),
             seen: vec![0; MEMORY],
             workshop: Workshop::default(),
         }
@@ -102,14 +119,20 @@ impl Island {
     pub fn generation(&mut self, problem: &Problem, settings: &Settings, stream: u64) {
         let mut rng = ChaCha8Rng::seed_from_u64(settings.seed);
         rng.set_stream(stream);
+        self.workshop.variation.follow(&self.rates);
         for _ in 0..self.candidates(settings) {
             self.counts.considered += 1;
-            self.conceive(&mut rng, problem, settings.immigrants);
+            let made_by = self.conceive(&mut rng, problem, settings.immigrants);
             for (output, transform) in problem.transforms() {
                 transform.undo(&mut self.workshop.child, output);
             }
+            let Counts { fitted, admitted, .. } = self.counts;
             self.consider(problem);
+            if self.counts.fitted > fitted {
+                self.rates.note(made_by, self.counts.admitted > admitted);
+            }
         }
+        self.rates.fade();
     }
 
     /// A fit takes a time that grows with instructions times constants, so about with the square of the
@@ -119,96 +142,96 @@ impl Island {
         (settings.candidates as f64 / share.clamp(LEAST_SHARE, 1.0).powi(2)) as usize
     }
 
-    /// Makes a child of the population, or a random draft where there is none, or for an immigrant.
-    fn conceive(&mut self, rng: &mut ChaCha8Rng, problem: &Problem, immigrants: f64) {
+    /// Makes a child of the population, or a random draft where there is none, or for an immigrant. Gives
+    /// the changes that made it.
+    fn conceive(&mut self, rng: &mut ChaCha8Rng, problem: &Problem, immigrants: f64) -> u16 {
         let Workshop { variation, child, .. } = &mut self.workshop;
         let immigrates = immigrants > 0.0 && rng.random::<f64>() < immigrants;
         match (self.population.pick(rng), self.population.pick(rng)) {
             (Some(parent), Some(donor)) if !immigrates => {
                 child.copy_from(&parent.draft);
-                variation.vary(rng, child, &donor.draft, problem.grammar);
+                variation.vary(rng, child, &donor.draft, problem.grammar)
             }
             _ => {
                 let (inputs, outputs) = (problem.all.inputs(), problem.all.outputs());
                 random_draft(rng, inputs, outputs, problem.grammar, child);
+                0
             }
         }
     }
 
     /// Simplifies, costs, fits and offers the child; drops it where it has no chance.
     fn consider(&mut self, problem: &Problem) {
-        let Workshop { simplifier, fitter, cost: scratch, hashes, uses, child, candidate, .. } =
-            &mut self.workshop;
-        simplifier.simplify(child, candidate);
-        if !is_written_in(candidate, problem) {
-            effective_into(child, candidate, uses);
+        match self.newcomer(problem) {
+            Err(fate) => self.counts.note(fate),
+            Ok(newcomer) => {
+                self.counts.admitted += 1;
+                let Individual { cost, loss, .. } = newcomer;
+                if self.population.offer(newcomer) {
+                    self.nominate(problem, cost, loss);
+                }
+            }
         }
-        let constants_are_finite = candidate.consts.iter().all(|c| c.is_finite());
-        if candidate.instrs.len() > problem.grammar.max_instructions || !constants_are_finite {
-            self.counts.too_long += 1;
-            return;
+    }
+
+    /// What the child has become, if the population may want it.
+    fn newcomer(&mut self, problem: &Problem) -> Result<Individual, Fate> {
+        let workshop = &mut self.workshop;
+        let cost = workshop.prepare(problem, self.population.max_cost)?;
+        let hash = workshop.structure();
+        if !remember(&mut self.seen, hash) {
+            return Err(Fate::Seen);
+        }
+        if !problem.admits(&workshop.candidate) {
+            return Err(Fate::Inadmissible);
+        }
+        self.counts.fitted += 1;
+        let admission = self.population.admission(&workshop.candidate, cost);
+        let loss = workshop.race(problem, admission, self.by_maximum)?;
+        if problem.checks.hold(&workshop.candidate, &mut workshop.fitter.evaluator) {
+            return Ok(Individual { draft: workshop.candidate.clone(), cost, loss, hash });
+        }
+        self.clamped(problem).ok_or(Fate::Unfulfilled)
+    }
+
+    /// Clamped outputs may be the cheapest way to what is required.
+    fn clamped(&mut self, problem: &Problem) -> Option<Individual> {
+        let Workshop { fitter, cost: scratch, candidate, .. } = &mut self.workshop;
+        *candidate = problem.checks.clamped(candidate, problem.grammar)?;
+        if !problem.admits(candidate) || candidate.instrs.len() > problem.grammar.max_instructions {
+            return None;
         }
         let cost = problem.cost(candidate, scratch);
-        if cost > self.population.max_cost {
-            self.counts.too_dear += 1;
-            return;
-        }
-        let hash = structural_hash(candidate, Constants::Ignored, hashes);
-        if !remember(&mut self.seen, hash) {
-            self.counts.seen += 1;
-            return;
-        }
-        if !problem.admits(candidate) {
-            self.counts.inadmissible += 1;
-            return;
-        }
         let admission = self.population.admission(candidate, cost);
-        let subset = &problem.subset;
-        let scale = 1.0 / subset.total_weight();
-        let loss = fitter.fit(candidate, subset, FIRST_STEPS) * scale;
-        self.counts.fitted += 1;
-        if !loss.is_finite() {
-            self.counts.not_finite += 1;
+        let mut loss = fitter.fit(candidate, &problem.subset, MORE_STEPS) * problem.subset_scale();
+        if loss < admission && self.by_maximum {
+            loss = levelled(fitter, candidate, &problem.subset, admission);
+        }
+        let fulfils = loss < admission && problem.checks.hold(candidate, &mut fitter.evaluator);
+        let hash = self.workshop.structure();
+        let draft = &self.workshop.candidate;
+        fulfils.then(|| Individual { draft: draft.clone(), cost, loss, hash })
+    }
+
+    /// Offers the candidate, whose loss on the subset is given, to the archive, fitted on all samples, if
+    /// it may be wanted there.
+    fn nominate(&mut self, problem: &Problem, cost: f64, mut loss: f64) {
+        let Workshop { fitter, candidate, .. } = &mut self.workshop;
+        let wanted = self.archive.best_loss(cost) * SUBSET_TOLERANCE;
+        let by_maximum = problem.measure == Measure::Max;
+        if by_maximum && !self.by_maximum {
+            loss = levelled(fitter, candidate, &problem.subset, wanted);
+        }
+        if loss >= wanted {
             return;
         }
-        if loss > admission * HOPELESS {
-            self.counts.hopeless += 1;
-            return;
+        self.counts.fitted_on_all += 1;
+        let mut loss = fitter.fit(candidate, &problem.all, ALL_SAMPLES) * problem.scale();
+        if by_maximum {
+            loss = levelled(fitter, candidate, &problem.all, wanted);
         }
-        let mut loss = fitter.go_on(candidate, subset, MORE_STEPS) * scale;
-        if loss >= admission {
-            self.counts.no_better += 1;
-            return;
-        }
-        let (mut cost, mut hash) = (cost, hash);
-        if !problem.checks.hold(candidate, &mut fitter.evaluator) {
-            // Clamped outputs may be the cheapest way to what is required.
-            let clamped = problem.checks.clamped(candidate, problem.grammar);
-            let Some(mut clamped) = clamped.filter(|draft| problem.admits(draft)) else {
-                self.counts.unfulfilled += 1;
-                return;
-            };
-            cost = problem.cost(&clamped, scratch);
-            hash = structural_hash(&clamped, Constants::Ignored, hashes);
-            loss = fitter.fit(&mut clamped, subset, MORE_STEPS) * scale;
-            let wanted = cost <= self.population.max_cost
-                && clamped.instrs.len() <= problem.grammar.max_instructions
-                && loss < self.population.admission(&clamped, cost);
-            if !wanted || !problem.checks.hold(&clamped, &mut fitter.evaluator) {
-                self.counts.unfulfilled += 1;
-                return;
-            }
-            *candidate = clamped;
-        }
-        self.counts.admitted += 1;
-        let newcomer = Individual { draft: candidate.clone(), cost, loss, hash };
-        if self.population.offer(newcomer) && loss < self.archive.best_loss(cost) * SUBSET_TOLERANCE
-        {
-            self.counts.fitted_on_all += 1;
-            let loss = fitter.fit(candidate, &problem.all, ALL_SAMPLES) * problem.scale();
-            if problem.checks.hold(candidate, &mut fitter.evaluator) {
-                self.archive.offer(Member { cost, loss, draft: candidate.clone() });
-            }
+        if problem.checks.hold(candidate, &mut fitter.evaluator) {
+            self.archive.offer(Member { cost, loss, draft: candidate.clone() });
         }
     }
 
@@ -235,6 +258,52 @@ impl Island {
         }
         self.consider(problem);
     }
+}
+
+impl Workshop {
+    /// Makes the child a candidate, effective code as the grammar writes it, and costs it.
+    fn prepare(&mut self, problem: &Problem, max_cost: f64) -> Result<f64, Fate> {
+        let Workshop { simplifier, cost: scratch, uses, child, candidate, .. } = self;
+        simplifier.simplify(child, candidate);
+        if !is_written_in(candidate, problem) {
+            effective_into(child, candidate, uses);
+        }
+        let constants_are_finite = candidate.consts.iter().all(|c| c.is_finite());
+        if candidate.instrs.len() > problem.grammar.max_instructions || !constants_are_finite {
+            return Err(Fate::TooLong);
+        }
+        let cost = problem.cost(candidate, scratch);
+        if cost > max_cost { Err(Fate::TooDear) } else { Ok(cost) }
+    }
+
+    fn structure(&mut self) -> u64 {
+        structural_hash(&self.candidate, Constants::Ignored, &mut self.hashes)
+    }
+
+    /// Fits the candidate on the subset, as long as it may come below what it must beat; its loss.
+    fn race(&mut self, problem: &Problem, admission: f64, by_maximum: bool) -> Result<f64, Fate> {
+        let Workshop { fitter, candidate, .. } = self;
+        let (subset, scale) = (&problem.subset, problem.subset_scale());
+        let first = fitter.fit(candidate, subset, FIRST_STEPS) * scale;
+        if !first.is_finite() {
+            return Err(Fate::NotFinite);
+        }
+        if first > admission * HOPELESS {
+            return Err(Fate::Hopeless);
+        }
+        let mut loss = fitter.go_on(candidate, subset, MORE_STEPS) * scale;
+        // The mean of the squares is a lower bound of the square of the maximum.
+        if loss < admission && by_maximum {
+            loss = levelled(fitter, candidate, subset, admission);
+        }
+        if loss < admission { Ok(loss) } else { Err(Fate::NoBetter) }
+    }
+}
+
+/// The square of the maximum error, made small so long as it may come below what is wanted.
+fn levelled(fitter: &mut Fitter, draft: &mut Draft, samples: &Samples, wanted: f64) -> f64 {
+    let rounds = Rounds { wanted: wanted.sqrt(), ..LEVELLING };
+    minimax(fitter, draft, samples, rounds).powi(2)
 }
 
 /// Whether the grammar has each operation, negation apart, which is free.

@@ -5,7 +5,8 @@
 //! generations, in the islands' order. So the number of threads changes nothing but the time.
 //!
 //! Islands differ in the cycles that a formula may cost there, and in who competes: on some only formulas
-//! with the same families of operations, so that a root or an exponential, dear at first, can grow.
+//! with the same families of operations, so that a root or an exponential, dear at first, can grow. Where the
+//! maximum error is to be small, on half of them it decides, on the others RMSE still does.
 
 mod census;
 mod enumerate;
@@ -29,7 +30,7 @@ pub use transform::Transform;
 
 use crate::archive::Archive;
 use crate::cost::{CostScratch, Profile};
-use crate::dataset::Dataset;
+use crate::dataset::{Dataset, Split};
 use crate::eval::Samples;
 use crate::fit::Measure;
 use crate::grammar::Grammar;
@@ -112,8 +113,13 @@ impl<'a> Problem<'a> {
         settings: &Settings,
     ) -> Problem<'a> {
         let inputs = dataset.inputs.len();
-        let split = with_ends(dataset, &settings.requirements);
+        let split = with_ends(dataset, &settings.requirements, settings.measure);
         let mut rows = spread_rows(dataset.search.rows(), settings.subset);
+        if settings.measure == Measure::Max {
+            rows.extend(edge_rows(&dataset.search, inputs));
+            rows.sort_unstable();
+            rows.dedup();
+        }
         rows.extend(dataset.search.rows() as u32..split.rows() as u32);
         // The ends count by weight.
         let measure = match split.rows() > dataset.search.rows() {
@@ -147,6 +153,11 @@ impl<'a> Problem<'a> {
     fn scale(&self) -> f64 {
         1.0 / self.all.total_weight()
     }
+
+    /// The same for the subset.
+    fn subset_scale(&self) -> f64 {
+        1.0 / self.subset.total_weight()
+    }
 }
 
 /// Rows spread evenly over the table, by the golden ratio: on a grid they form a lattice.
@@ -162,8 +173,20 @@ fn spread_rows(rows: usize, wanted: usize) -> Vec<u32> {
     spread
 }
 
-/// In mean square, how much worse than the archive's a contender may be.
+/// Rows at which an input is at an end: where errors are largest, more often than not.
+fn edge_rows(split: &Split, inputs: usize) -> impl Iterator<Item = u32> {
+    split.columns[..inputs].iter().flat_map(|column| {
+        let low = column.iter().copied().fold(f32::INFINITY, f32::min);
+        let high = column.iter().copied().fold(f32::NEG_INFINITY, f32::max);
+        let at_an_end = move |row: &u32| [low, high].contains(&column[*row as usize]);
+        (0..column.len() as u32).filter(at_an_end)
+    })
+}
+
+/// In mean square, how much worse than the archive's a contender may be; in the square of the maximum
+/// error, where that is what was searched for.
 const CONTENDING: f64 = 4.0;
+const CONTENDING_BY_MAXIMUM: f64 = 1.5;
 
 /// What became of the candidates; each is counted once under `considered` and where it ended.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
@@ -190,7 +213,33 @@ pub struct Counts {
     pub fitted_on_all: u64,
 }
 
+/// Where a candidate ended that was not admitted.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Fate {
+    TooLong,
+    TooDear,
+    Seen,
+    Inadmissible,
+    NotFinite,
+    Hopeless,
+    NoBetter,
+    Unfulfilled,
+}
+
 impl Counts {
+    fn note(&mut self, fate: Fate) {
+        *match fate {
+            Fate::TooLong => &mut self.too_long,
+            Fate::TooDear => &mut self.too_dear,
+            Fate::Seen => &mut self.seen,
+            Fate::Inadmissible => &mut self.inadmissible,
+            Fate::NotFinite => &mut self.not_finite,
+            Fate::Hopeless => &mut self.hopeless,
+            Fate::NoBetter => &mut self.no_better,
+            Fate::Unfulfilled => &mut self.unfulfilled,
+        } += 1;
+    }
+
     fn add(&mut self, other: &Counts) {
         self.considered += other.considered;
         self.too_long += other.too_long;
@@ -241,12 +290,16 @@ impl Search {
     /// are not much worse than its own.
     fn contenders(&self) -> Vec<&Draft> {
         let archive = self.archive();
+        let contending = match self.settings.measure {
+            Measure::Max => CONTENDING_BY_MAXIMUM,
+            _ => CONTENDING,
+        };
         let mut hashes = Vec::new();
         let mut structure = |draft| structural_hash(draft, Constants::Ignored, &mut hashes);
         let mut known: HashSet<u64> =
             archive.members().iter().map(|member| structure(&member.draft)).collect();
         let all = self.islands.iter().flat_map(|island| island.population.individuals());
-        all.filter(|one| one.loss < CONTENDING * archive.best_loss(one.cost))
+        all.filter(|one| one.loss < contending * archive.best_loss(one.cost))
             .filter(|one| known.insert(one.hash))
             .map(|one| &one.draft)
             .collect()
@@ -266,11 +319,11 @@ impl Search {
             island.generation(problem, settings, generation * settings.islands as u64 + i as u64);
         });
         self.generation += 1;
-        self.barrier();
+        self.barrier(problem);
     }
 
     /// What islands learn of each other.
-    fn barrier(&mut self) {
+    fn barrier(&mut self, problem: &Problem) {
         for island in &self.islands {
             self.archive.merge(&island.archive);
         }
@@ -285,7 +338,12 @@ impl Search {
                 .collect();
             let count = self.islands.len();
             for (i, migrants) in elites.into_iter().enumerate() {
-                self.islands[(i + 1) % count].welcome(migrants);
+                let alike = self.islands[i].by_maximum == self.islands[(i + 1) % count].by_maximum;
+                let next = &mut self.islands[(i + 1) % count];
+                match alike {
+                    true => next.welcome(migrants),
+                    false => migrants.iter().for_each(|one| next.settle(&one.draft, problem)),
+                }
             }
         }
     }
@@ -297,6 +355,6 @@ impl Search {
                 island.settle(draft, problem);
             }
         }
-        self.barrier();
+        self.barrier(problem);
     }
 }

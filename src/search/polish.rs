@@ -33,9 +33,8 @@ pub(super) fn polish(
     let mut draft = draft.clone();
     fitter.fit(&mut draft, &problem.all, TO_CONVERGENCE);
     if measure == Measure::Max {
-        let mut samples = problem.all.clone();
-        minimax(&mut fitter, &mut draft, &mut samples, Rounds::TO_CONVERGENCE);
-        shorten_minimax(&mut fitter, &mut draft, &samples, MINIMAX_ALLOWANCE);
+        minimax(&mut fitter, &mut draft, &problem.all, Rounds::TO_CONVERGENCE);
+        shorten_minimax(&mut fitter, &mut draft, &problem.all, MINIMAX_ALLOWANCE);
     } else {
         shorten(&mut fitter, &mut draft, &problem.all, SHORTENING_ALLOWANCE);
     }
@@ -59,6 +58,9 @@ fn finished(
     let finished = [draft.clone(), simple].into_iter().filter_map(|draft| {
         let active = without_idle(Program::verify(draft).ok()?, &problem.dataset.inputs);
         let program = effective(&tidy(&active));
+        if divides_constants(&program) {
+            return None;
+        }
         Some(FrontMember::new(program, problem.dataset, problem.profile, names))
     });
     let error = |member: &FrontMember| (member.cost, member.search_error().of(measure) * WORSE);
@@ -70,16 +72,23 @@ fn finished(
     })
 }
 
-/// Of many drafts those that a few rounds of reweighting bring near the least maximum error at their
+/// Whether an operation reads constants alone. All such are folded but those without a finite value, such as a
+/// quotient by a constant that has become zero.
+fn divides_constants(program: &Program) -> bool {
+    let is_constant = |arg: &Arg| matches!(arg, Arg::Const(_));
+    program.instrs.iter().any(|instr| instr.args().iter().all(is_constant))
+}
+
+/// Of many drafts those that a few rounds bring near the least maximum error at their
 /// cost.
 pub(super) fn promising(drafts: Vec<Draft>, problem: &Problem) -> Vec<Draft> {
     let mut tried: Vec<(f64, f64, Draft)> = drafts
         .into_par_iter()
         .map_init(
-            || (Fitter::default(), problem.all.clone(), CostScratch::default()),
-            |(fitter, samples, scratch), mut draft| {
+            || (Fitter::default(), CostScratch::default()),
+            |(fitter, scratch), mut draft| {
                 fitter.fit(&mut draft, &problem.all, FIRST_LOOK.steps);
-                let error = minimax(fitter, &mut draft, samples, FIRST_LOOK);
+                let error = minimax(fitter, &mut draft, &problem.all, FIRST_LOOK);
                 (problem.cost(&draft, scratch), error, draft)
             },
         )
@@ -94,8 +103,12 @@ pub(super) fn promising(drafts: Vec<Draft>, problem: &Problem) -> Vec<Draft> {
     tried.into_iter().map(|(_, _, draft)| draft).collect()
 }
 
-const FIRST_LOOK: Rounds =
-    Rounds { most: 20, patience: 6, steps: Stop { max_steps: 3, min_gain: 1e-4 } };
+const FIRST_LOOK: Rounds = Rounds {
+    most: 4,
+    steps: Stop { max_steps: 3, min_gain: 1e-4 },
+    programs: 3,
+    wanted: f64::INFINITY,
+};
 
 /// Times the least error found so far.
 const PROMISING: f64 = 1.1;

@@ -4,6 +4,7 @@
 use super::Problem;
 use crate::dataset::{Dataset, Split};
 use crate::eval::{Evaluator, Samples, Tape, Values};
+use crate::fit::Measure;
 use crate::grammar::Grammar;
 use crate::op::Op;
 use crate::program::{Arg, Draft, Names, Program};
@@ -37,8 +38,10 @@ pub enum Requirement {
 /// How far a value may be off where it must be exact.
 const EXACT: f32 = 1e-5;
 
-/// What the samples at the ends weigh, against 1 for others.
+/// What the samples at the ends weigh, against 1 for others; more where it is the maximum error that counts,
+/// by which all become alike.
 const WEIGHT_OF_ENDS: f32 = 1e4;
+const WEIGHT_OF_ENDS_BY_MAXIMUM: f32 = 1e7;
 
 /// Steps over an input's domain, between the ends of which a monotone output is compared, and the rounding
 /// that is forgiven.
@@ -319,17 +322,26 @@ fn samples_for(requirement: &Requirement, dataset: &Dataset) -> Vec<Samples> {
 }
 
 /// The search split, and at the ends that must be exact the validation split's rows, weighing more.
-pub(super) fn with_ends(dataset: &Dataset, requirements: &[Requirement]) -> Split {
+pub(super) fn with_ends(
+    dataset: &Dataset,
+    requirements: &[Requirement],
+    measure: Measure,
+) -> Split {
     let mut split = dataset.search.clone();
+    let (weighs, weight_of_ends) = match measure {
+        Measure::Max => (false, WEIGHT_OF_ENDS_BY_MAXIMUM),
+        _ => (true, WEIGHT_OF_ENDS),
+    };
     for requirement in requirements {
         let &Requirement::Ends { input, .. } = requirement else { continue };
         let whole = both_splits(dataset);
-        split.weights = (0..split.rows()).map(|row| split.weight(row)).collect();
+        split.weights =
+            (0..split.rows()).map(|row| if weighs { split.weight(row) } else { 1.0 }).collect();
         for row in rows_at_ends(&whole, dataset, input) {
             for (to, from) in split.columns.iter_mut().zip(&whole.columns) {
                 to.push(from[row as usize]);
             }
-            split.weights.push(WEIGHT_OF_ENDS);
+            split.weights.push(weight_of_ends);
             split.free.iter_mut().for_each(|free| free.push(0.0));
         }
         split.grid.clear();

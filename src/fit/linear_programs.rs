@@ -1,0 +1,138 @@
+//! The least maximum error of a program near the constants that it has.
+
+use super::Fitter;
+use super::chebyshev::least_maximum;
+use super::minimax::{errors, scaled};
+use crate::eval::{Samples, Values};
+use crate::program::Draft;
+
+/// A box's half width, relative to each constant.
+const FIRST_REACH: f64 = 0.1;
+const LEAST_REACH: f64 = 1e-6;
+
+/// Where a linear program promises less than this share, it was the last.
+const LEAST_GAIN: f64 = 1e-4;
+
+/// Constants are moved as if at least this large.
+const LEAST_SCALE: f64 = 1e-2;
+
+/// Errors of all samples and outputs, and their derivatives by the constants, times the constants' scale.
+#[derive(Default)]
+struct Linearised {
+    /// Index and scale.
+    constants: Vec<(usize, f64)>,
+    errors: Vec<f64>,
+    slopes: Vec<Vec<f64>>,
+}
+
+impl Linearised {
+    fn assign(
+        &mut self,
+        fitter: &mut Fitter,
+        program: &Draft,
+        samples: &Samples,
+        is_free: impl Fn(usize) -> bool,
+        values: &mut Values,
+    ) {
+        fitter.derivative.assign_free(program, is_free);
+        fitter.tape.prepare(&fitter.derivative.program);
+        fitter.evaluator.outputs_into(&fitter.tape, samples, values);
+        let entries = &fitter.derivative.jacobian.entries[..samples.outputs()];
+        let matters = |constant: &usize| {
+            entries.iter().flatten().any(|&(parameter, _)| usize::from(parameter) == *constant)
+        };
+        let scale = |constant: usize| f64::from(program.consts[constant].abs()).max(LEAST_SCALE);
+        self.constants = (0..program.consts.len())
+            .filter(matters)
+            .map(|constant| (constant, scale(constant)))
+            .collect();
+        self.errors.clear();
+        for output in 0..samples.outputs() {
+            self.errors.extend(scaled(samples, values, output));
+        }
+        let weighed =
+            |output| samples.weights(output).iter().map(|&weight| f64::from(weight).sqrt());
+        self.slopes.clear();
+        for &(constant, scale) in &self.constants {
+            let mut slopes = vec![0.0; self.errors.len()];
+            for (output, slopes) in slopes.chunks_mut(samples.rows()).enumerate() {
+                let by_this = |entry: &&(u16, u16)| usize::from(entry.0) == constant;
+                for &(_, at) in entries[output].iter().filter(by_this) {
+                    let derivatives = values.column(usize::from(at)).iter().zip(weighed(output));
+                    for (slope, (&derivative, weight)) in slopes.iter_mut().zip(derivatives) {
+                        *slope = f64::from(derivative) * weight * scale;
+                    }
+                }
+            }
+            self.slopes.push(slopes);
+        }
+    }
+
+    /// The best step within the box, in units of its half widths, and the largest error expected there.
+    fn step(&self, reach: f64) -> Option<(Vec<f64>, f64)> {
+        let mut spread = vec![0.0; self.errors.len()];
+        for slope in &self.slopes {
+            spread.iter_mut().zip(slope).for_each(|(sum, slope)| *sum += (slope * reach).abs());
+        }
+        if !spread.iter().all(|spread| spread.is_finite()) {
+            return None;
+        }
+        let sure = self.errors.iter().zip(&spread).map(|(error, spread)| error.abs() - spread);
+        // What no step can bring up to where another stays need not be looked at.
+        let sure = sure.fold(0.0, f64::max);
+        let rows: Vec<usize> =
+            (0..self.errors.len()).filter(|&i| self.errors[i].abs() + spread[i] >= sure).collect();
+        let errors: Vec<f64> = rows.iter().map(|&i| self.errors[i]).collect();
+        let reached = |slope: &Vec<f64>| rows.iter().map(|&i| slope[i] * reach).collect();
+        let slopes: Vec<Vec<f64>> = self.slopes.iter().map(reached).collect();
+        least_maximum(&errors, &slopes)
+    }
+}
+
+/// Moves the constants by the solutions of linear programs: the least maximum error of the program
+/// linearised where it stands, within a box around it (Madsen 1975, "An algorithm for minimax solution of
+/// overdetermined systems of non-linear equations"). Gives the largest error.
+pub(super) fn by_linear_programs(
+    fitter: &mut Fitter,
+    program: &mut Draft,
+    samples: &Samples,
+    most: u32,
+    is_free: impl Fn(usize) -> bool + Copy,
+    mut best: f64,
+) -> f64 {
+    let mut values = Values::default();
+    let mut trial = program.clone();
+    let mut reach = FIRST_REACH;
+    let mut linear = Linearised::default();
+    let mut stale = true;
+    for _ in 0..most {
+        if !best.is_finite() || best == 0.0 || reach < LEAST_REACH {
+            break;
+        }
+        if stale {
+            linear.assign(fitter, program, samples, is_free, &mut values);
+        }
+        let Some((step, least)) = linear.step(reach) else { break };
+        if least > best * (1.0 - LEAST_GAIN) {
+            break;
+        }
+        trial.copy_from(program);
+        for (&(constant, scale), step) in linear.constants.iter().zip(step) {
+            trial.consts[constant] += (step * reach * scale) as f32;
+        }
+        let (_, largest) = errors(fitter, &trial, samples, &mut values);
+        stale = largest < best;
+        let gain = (best - largest) / (best - least);
+        if stale {
+            best = largest;
+            program.copy_from(&trial);
+        }
+        reach *= match gain {
+            gain if gain > 0.75 => 2.0,
+            gain if gain > 0.25 => 1.0,
+            gain if gain > 0.0 => 0.5,
+            _ => 0.25,
+        };
+    }
+    best
+}

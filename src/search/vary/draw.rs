@@ -1,0 +1,72 @@
+//! Random drafts, operations, arguments and constants.
+
+use crate::grammar::Grammar;
+use crate::op::{MAX_ARITY, Op};
+use crate::program::{Arg, Draft};
+use rand::RngExt;
+use rand_chacha::ChaCha8Rng;
+
+/// A random draft of a few instructions for each output.
+pub(in crate::search) fn random_draft(
+    rng: &mut ChaCha8Rng,
+    inputs: usize,
+    outputs: usize,
+    grammar: &Grammar,
+    draft: &mut Draft,
+) {
+    draft.clear(inputs);
+    for _ in 0..outputs {
+        for _ in 0..rng.random_range(1..6) {
+            push_random(rng, draft, grammar);
+        }
+        draft.outputs.push(Arg::Result((draft.instrs.len() - 1) as u16));
+    }
+}
+
+/// An instruction on random earlier values, the latest among them more often than not.
+fn push_random(rng: &mut ChaCha8Rng, draft: &mut Draft, grammar: &Grammar) {
+    let op = random_operation(rng, grammar);
+    let earlier = draft.instrs.len();
+    let mut args: [Arg; MAX_ARITY] = std::array::from_fn(|_| random_arg(rng, draft, earlier));
+    if earlier > 0 && rng.random_range(0..100) < 60 {
+        args[rng.random_range(0..op.arity())] = Arg::Result((earlier - 1) as u16);
+    }
+    draft.push(op, &args);
+}
+
+pub(super) fn random_operation(rng: &mut ChaCha8Rng, grammar: &Grammar) -> Op {
+    let total: f64 = grammar.operations.iter().map(|(_, rate)| rate).sum();
+    let mut pick = rng.random::<f64>() * total;
+    for &(op, rate) in &grammar.operations {
+        pick -= rate;
+        if pick <= 0.0 {
+            return op;
+        }
+    }
+    grammar.operations[0].0
+}
+
+/// An input, an earlier result, or a new constant.
+pub(super) fn random_arg(rng: &mut ChaCha8Rng, draft: &mut Draft, earlier: usize) -> Arg {
+    match rng.random_range(0..100) {
+        0..45 => random_value(rng, draft, earlier),
+        45..72 if earlier > 0 => Arg::Result(rng.random_range(0..earlier) as u16),
+        72..100 => draft.constant(random_constant(rng)),
+        _ => random_value(rng, draft, earlier),
+    }
+}
+
+/// An input, or an earlier result where there is no input.
+pub(super) fn random_value(rng: &mut ChaCha8Rng, draft: &Draft, earlier: usize) -> Arg {
+    let values = draft.inputs + earlier / 3;
+    match rng.random_range(0..values.max(1)) {
+        i if i < draft.inputs => Arg::Input(i as u16),
+        _ => Arg::Result(rng.random_range(0..earlier) as u16),
+    }
+}
+
+/// Of either sign, its magnitude between 1/8 and 8, uniform in the logarithm.
+pub(in crate::search) fn random_constant(rng: &mut ChaCha8Rng) -> f32 {
+    let magnitude = rng.random_range(-3.0f32..3.0).exp2();
+    if rng.random_range(0..100) < 65 { magnitude } else { -magnitude }
+}

@@ -1,0 +1,44 @@
+//! How often each kind of change is made: by how often it has paid.
+
+use super::MOVES;
+use serde::{Deserialize, Serialize};
+
+/// How often each kind of change has led to a fit lately, and how often to an admission.
+#[derive(Clone, Debug, Default, Serialize, Deserialize)]
+pub(in crate::search) struct Rates {
+    fitted: [f64; MOVES.len()],
+    admitted: [f64; MOVES.len()],
+}
+
+/// Of what was known a generation ago, the share that still counts.
+const MEMORY: f64 = 0.9;
+
+/// A kind that pays more often than the others is made more often, up to so many times.
+const MOST_FAVOURED: f64 = 1.7;
+
+/// Fits that are made up for each kind, so that nothing is concluded from a few.
+const PRIOR: f64 = 50.0;
+
+impl Rates {
+    /// Notes what became of a child, given the kinds of change that made it.
+    pub fn note(&mut self, made_by: u16, admitted: bool) {
+        for kind in (0..MOVES.len()).filter(|kind| made_by >> kind & 1 == 1) {
+            self.fitted[kind] += 1.0;
+            self.admitted[kind] += f64::from(u8::from(admitted));
+        }
+    }
+
+    /// To be called after each generation.
+    pub fn fade(&mut self) {
+        self.fitted.iter_mut().chain(&mut self.admitted).for_each(|count| *count *= MEMORY);
+    }
+
+    pub(super) fn weights(&self) -> [f64; MOVES.len()] {
+        let sum = |counts: &[f64]| counts.iter().sum::<f64>();
+        let usual = (sum(&self.admitted) + 1.0) / (sum(&self.fitted) + 1.0);
+        std::array::from_fn(|kind| {
+            let pays = (self.admitted[kind] + PRIOR * usual) / (self.fitted[kind] + PRIOR);
+            MOVES[kind].1 * (pays / usual).clamp(1.0 / MOST_FAVOURED, MOST_FAVOURED)
+        })
+    }
+}
