@@ -74,6 +74,33 @@ fn random_programs_keep_their_values_and_do_not_become_dearer() {
     assert!(compared > 10_000, "{compared}");
 }
 
+/// Constants whose sums and products are no numbers are left apart, whatever the rules would bring together.
+#[test]
+fn constants_that_overflow_together_come_to_an_end() {
+    const LARGE: [f32; 6] = [3e38, -3e38, 1e30, 1e-38, 0.0, 2.0];
+    const ARITHMETIC: [Op; 8] =
+        [Op::Add, Op::Sub, Op::Mul, Op::Div, Op::Neg, Op::Rcp, Op::Min, Op::Max];
+    let mut rng = ChaCha8Rng::seed_from_u64(2);
+    for _ in 0..200_000 {
+        let mut draft = Draft { inputs: 1, ..Draft::default() };
+        LARGE.iter().for_each(|&large| {
+            draft.constant(large);
+        });
+        let length = rng.random_range(1..9u16);
+        for i in 0..length {
+            let args: [Arg; 4] = std::array::from_fn(|_| match rng.random_range(0..4) {
+                0 => Arg::Input(0),
+                1 => Arg::Const(rng.random_range(0..LARGE.len() as u16)),
+                _ if i == 0 => Arg::Input(0),
+                _ => Arg::Result(rng.random_range(0..i)),
+            });
+            draft.push(ARITHMETIC[rng.random_range(0..ARITHMETIC.len())], &args);
+        }
+        draft.outputs = vec![Arg::Result(length - 1)];
+        simplified(&draft);
+    }
+}
+
 #[test]
 fn rules_rewrite_as_they_say() {
     let names = Names::new(["x", "y"], ["f"]);

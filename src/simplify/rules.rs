@@ -76,7 +76,7 @@ impl Simplifier {
         // (x + c₁) + (y + c₂) = x + (y + c)
         let (left, c1) = self.constant_last(x, Op::Add).filter(|_| self.is_read_once(x))?;
         let (right, c2) = self.constant_last(y, Op::Add).filter(|_| self.is_read_once(y))?;
-        let c = self.build(Op::Add, &[c1, c2]);
+        let c = self.fold(Op::Add, &[c1, c2])?;
         let right = self.build(Op::Add, &[right, c]);
         Some(self.build(Op::Add, &[left, right]))
     }
@@ -86,12 +86,12 @@ impl Simplifier {
             return Some(x);
         }
         if let Some((inner, c2)) = self.constant_last(x, Op::Add) {
-            let c = self.build(Op::Add, &[c2, c]);
+            let c = self.fold(Op::Add, &[c2, c])?;
             return Some(self.build(Op::Add, &[inner, c]));
         }
         let (left, right) = self.operands(x, Op::Sub)?;
         self.constant(left)?;
-        let c = self.build(Op::Add, &[left, c]);
+        let c = self.fold(Op::Add, &[left, c])?;
         Some(self.build(Op::Sub, &[c, right]))
     }
 
@@ -122,13 +122,13 @@ impl Simplifier {
         if self.constant(x).is_some() {
             // c₁ − (x + c₂), c₁ − (c₂ − x), c₁ − c₂x
             if let Some((inner, c2)) = self.constant_last(y, Op::Add) {
-                let c = self.build(Op::Sub, &[x, c2]);
+                let c = self.fold(Op::Sub, &[x, c2])?;
                 return Some(self.build(Op::Sub, &[c, inner]));
             }
             if let Some((left, right)) = self.operands(y, Op::Sub)
                 && self.constant(left).is_some()
             {
-                let c = self.build(Op::Sub, &[x, left]);
+                let c = self.fold(Op::Sub, &[x, left])?;
                 return Some(self.build(Op::Add, &[right, c]));
             }
             if let Some(negated) = self.negated_product(y) {
@@ -141,7 +141,7 @@ impl Simplifier {
     /// `−(c x)` as `(−c) x`, where nothing else reads the product.
     fn negated_product(&mut self, arg: Arg) -> Option<Arg> {
         let (inner, c) = self.constant_last(arg, Op::Mul).filter(|_| self.is_read_once(arg))?;
-        let c = self.build(Op::Neg, &[c]);
+        let c = self.fold(Op::Neg, &[c])?;
         Some(self.build(Op::Mul, &[inner, c]))
     }
 
@@ -157,7 +157,7 @@ impl Simplifier {
         if let Some((inner, c)) = self.constant_last(x, Op::Add)
             && self.is_read_once(x)
         {
-            let c = self.build(Op::Neg, &[c]);
+            let c = self.fold(Op::Neg, &[c])?;
             return Some(self.build(Op::Sub, &[c, inner]));
         }
         self.negated_product(x)
@@ -202,17 +202,17 @@ impl Simplifier {
             _ => {}
         }
         if let Some((inner, c2)) = self.constant_last(x, Op::Mul) {
-            let c = self.build(Op::Mul, &[c2, c]);
+            let c = self.fold(Op::Mul, &[c2, c])?;
             return Some(self.build(Op::Mul, &[inner, c]));
         }
         if let Some((inner, _)) = self.operands(x, Op::Neg) {
-            let c = self.build(Op::Neg, &[c]);
+            let c = self.fold(Op::Neg, &[c])?;
             return Some(self.build(Op::Mul, &[inner, c]));
         }
         if let Some((left, right)) = self.operands(x, Op::Div)
             && self.constant(left).is_some()
         {
-            let c = self.build(Op::Mul, &[left, c]);
+            let c = self.fold(Op::Mul, &[left, c])?;
             return Some(self.build(Op::Div, &[c, right]));
         }
         self.distributed(x, c)
@@ -222,8 +222,8 @@ impl Simplifier {
     fn distributed(&mut self, x: Arg, c: Arg) -> Option<Arg> {
         let (sum, c2) = self.constant_last(x, Op::Add).filter(|_| self.is_read_once(x))?;
         let (inner, c1) = self.constant_last(sum, Op::Mul).filter(|_| self.is_read_once(sum))?;
-        let c1 = self.build(Op::Mul, &[c1, c]);
-        let c2 = self.build(Op::Mul, &[c2, c]);
+        let c1 = self.fold(Op::Mul, &[c1, c])?;
+        let c2 = self.fold(Op::Mul, &[c2, c])?;
         let product = self.build(Op::Mul, &[inner, c1]);
         Some(self.build(Op::Add, &[product, c2]))
     }
@@ -295,13 +295,14 @@ impl Simplifier {
                 if let Some((inner, c)) = self.constant_last(a, op)
                     && self.constant(b).is_some()
                 {
-                    let c = self.build(op, &[c, b]);
+                    let c = self.fold(op, &[c, b])?;
                     return Some(self.build(op, &[inner, c]));
                 }
             }
         }
         None
     }
+
     /// `min(max(x, 0), 1)` and `max(min(x, 1), 0)` are a saturation, which is free on a result.
     fn unit_clamp(&mut self, op: Op, inner: Arg, bound: Arg) -> Option<Arg> {
         let (opposite, bounds) = match op {
