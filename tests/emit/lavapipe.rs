@@ -1,4 +1,5 @@
-//! WGSL, GLSL and HLSL: run on Mesa's software Vulkan, and compared with the interpreter.
+//! WGSL, GLSL and HLSL: run on Mesa's software Vulkan, or the device whose name has `LGP_VULKAN_DEVICE`
+//! in it, and compared with the interpreter.
 
 use crate::agreement::{Case, OF_FORMULAS, Tolerance, front, operations};
 use crate::compile::validated;
@@ -23,10 +24,12 @@ fn hlsl_computes_what_the_interpreter_computes() {
     agree(Language::Hlsl);
 }
 
-/// The software device, unless that or the language's compiler is missing.
+/// The device, unless that or the language's compiler is missing.
 pub fn device(language: Language) -> Option<Gpu> {
     let untested = format!("{language} was not run");
-    let gpu = Gpu::open("llvmpipe").map_err(|why| tools::skipped(&format!("{why}; {untested}")));
+    let name = std::env::var("LGP_VULKAN_DEVICE");
+    let gpu = Gpu::open(name.as_deref().unwrap_or("llvmpipe"))
+        .map_err(|why| tools::skipped(&format!("{why}; {untested}")));
     let compiler = ["glslangValidator", "--version"];
     let compiles = language == Language::Wgsl || tools::found(&compiler, &untested);
     gpu.ok().filter(|_| compiles)
