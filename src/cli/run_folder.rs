@@ -6,7 +6,7 @@ use crate::emit::{self, Language, Snippet};
 use crate::eval::OutputError;
 use crate::fit::Measure;
 use crate::report::plot::{self, FrontPlot, PlotError, Theme};
-use crate::report::table::{Published, cycles_text, error_text, front_table};
+use crate::report::table::{Published, axis_title, cycles_text, error_text, front_table};
 use crate::report::verdict::verdict_lines;
 use crate::search::{Census, Front, FrontMember, Run, Search, TracePoint, trace_csv};
 use std::collections::BTreeSet;
@@ -88,14 +88,14 @@ impl PartialRun {
                 let _ = std::fs::remove_file(self.folder.join(file));
             }
         }
-        write(&self.folder, "trace.csv", self.trace_text().as_bytes())?;
+        write(&self.folder, "trace.csv", self.trace_text(search.settings().measure).as_bytes())?;
         self.census.save(&self.folder)?;
         search.save(&self.folder, dataset)?;
         Ok(run.save(&self.folder)?)
     }
 
-    fn trace_text(&self) -> String {
-        let trace = trace_csv(&self.trace);
+    fn trace_text(&self, measure: Measure) -> String {
+        let trace = trace_csv(&self.trace, measure);
         match self.earlier_trace.is_empty() {
             true => trace,
             false => self.earlier_trace.clone() + trace.split_once('\n').map_or("", |(_, t)| t),
@@ -155,25 +155,27 @@ fn remove_snippets(folder: &Path) {
     paths.filter(is_ours).for_each(|path| drop(std::fs::remove_file(path)));
 }
 
-/// The front as a picture.
+/// The front as a picture, in its measure.
 pub fn write_plots(
     folder: &Path,
     run: &Run,
     front: &Front,
     incumbents: &[Published],
 ) -> Result<(), Failure> {
-    let point = |member: &FrontMember| (member.cost, member.search_error().rmse);
+    let measure = front.measure;
+    let error = |member: &FrontMember| member.search_error().of(measure);
+    let point = |member: &FrontMember| (member.cost, error(member));
     let front: Vec<_> = front.members.iter().map(point).collect();
     let incumbents: Vec<_> = incumbents
         .iter()
-        .map(|known| (known.name.clone(), known.member.cost, known.member.search_error().rmse))
+        .map(|known| (known.name.clone(), known.member.cost, error(&known.member)))
         .collect();
     let names = run.names();
     let plot = FrontPlot {
         title: &format!("{}: {}", run.name, names.outputs.join(", ")),
         subtitle: &format!("{} · {}", domains(&run.inputs), seeds(run)),
         x_label: &format!("GPU cycles ({})", run.gpu),
-        y_label: "RMSE on the search split",
+        y_label: &format!("{} on the search split", axis_title(measure)),
         front: &front,
         incumbents: &incumbents,
         theme: Theme::Light,

@@ -114,6 +114,14 @@ pub fn title(measure: Measure) -> &'static str {
     }
 }
 
+/// A measure beside a plot's axis.
+pub fn axis_title(measure: Measure) -> &'static str {
+    match measure {
+        Measure::Max => "maximum error",
+        _ => title(measure),
+    }
+}
+
 /// The cheapest member that dominates an incumbent, and its place.
 pub fn dominating<'a>(known: &Published, front: &'a Front) -> Option<(usize, &'a FrontMember)> {
     front

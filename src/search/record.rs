@@ -179,7 +179,7 @@ pub struct TracePoint {
     pub seconds: f64,
     pub counts: Counts,
     pub hypervolume: f64,
-    /// The least RMSE on the search split at each of [`TRACE_COSTS`] or below.
+    /// The least error that the search makes small, on the search split, at each of [`TRACE_COSTS`] or below.
     pub errors: [f64; TRACE_COSTS.len()],
 }
 
@@ -240,11 +240,11 @@ impl Search {
     }
 }
 
-const CHECKPOINT_MAGIC: &[u8] = b"LGPSTATE2";
+const CHECKPOINT_MAGIC: &[u8] = b"LGPSTATE3";
 
-/// The text of `trace.csv`.
-pub fn trace_csv(points: &[TracePoint]) -> String {
-    let costs = TRACE_COSTS.map(|cost| format!("rmse_{cost}")).join(",");
+/// The text of `trace.csv`, its errors in a measure that names their columns.
+pub fn trace_csv(points: &[TracePoint], measure: Measure) -> String {
+    let costs = TRACE_COSTS.map(|cost| format!("{measure}_{cost}")).join(",");
     let mut text = format!("seconds,considered,fitted,fitted_on_all,hypervolume,{costs}\n");
     for point in points {
         let TracePoint { seconds, counts, hypervolume, errors } = point;

@@ -10,7 +10,7 @@ use crate::report::maps::{self, Maps, OutputMaps, Plane};
 use crate::report::page::Trace;
 use crate::report::plot::{self, Line, LinePlot, PlotError, Theme};
 use crate::report::spheres::{Environment, View};
-use crate::report::table::{Published, cycles_text, error_text};
+use crate::report::table::{Published, axis_title, cycles_text, error_text};
 use crate::search::FrontMember;
 use std::path::Path;
 
@@ -63,11 +63,12 @@ fn write_convergence(gathered: &Gathered, trace: &Trace, folder: &Path) -> Resul
     let every = trace.costs.len().div_ceil(7).max(1);
     let lines: Vec<Line> = trace.costs.iter().zip(&trace.errors).step_by(every).map(line).collect();
     let run = &gathered.run;
+    let measure = run.settings.measure;
     let plot = LinePlot {
         title: &format!("{}: how the search went on", run.name),
         subtitle: &format!("{} · {}", run_folder::seeds(run), run.machine),
         x_label: "seconds",
-        y_label: "RMSE on the search split, before polishing",
+        y_label: &format!("{} on the search split, before polishing", axis_title(measure)),
         lines: &lines,
         theme: Theme::Light,
     };

@@ -1,5 +1,6 @@
 //! How a search went on, from its `trace.csv`.
 
+use crate::fit::Measure;
 use serde::Serialize;
 
 /// The columns of a `trace.csv`.
@@ -10,7 +11,7 @@ pub struct Trace {
     pub hypervolume: Vec<f64>,
     /// Cycles, rising.
     pub costs: Vec<f64>,
-    /// By cost, the least RMSE at each moment at that cost or below; infinite where there is none.
+    /// By cost, the least error at each moment at that cost or below; infinite where there is none.
     pub errors: Vec<Vec<f64>>,
 }
 
@@ -30,8 +31,10 @@ impl Trace {
         let [seconds, considered, hypervolume] =
             [place("seconds")?, place("considered")?, place("hypervolume")?];
         let by_cost = names.iter().enumerate().filter_map(|(column, name)| {
-            let cost = name.strip_prefix("rmse_")?.parse::<f64>().ok()?;
-            Some((column, cost))
+            // After the measure's name.
+            let (measure, cost) = name.split_once('_')?;
+            measure.parse::<Measure>().ok()?;
+            Some((column, cost.parse::<f64>().ok()?))
         });
         let by_cost: Vec<(usize, f64)> = by_cost.collect();
         let mut trace = Trace {
@@ -64,7 +67,7 @@ mod tests {
     #[test]
     fn columns_are_found_by_name() {
         let trace =
-            Trace::parse("seconds,considered,hypervolume,rmse_5,rmse_10\n1,2,3,inf,.5\n").unwrap();
+            Trace::parse("seconds,considered,hypervolume,max_5,max_10\n1,2,3,inf,.5\n").unwrap();
         assert_eq!((trace.seconds, trace.costs), (vec![1.0], vec![5.0, 10.0]));
         assert_eq!(trace.errors, [[f64::INFINITY], [0.5]]);
     }

@@ -69,7 +69,7 @@ function drawTimes() {
   const all = volumes.flat().flatMap((p) => [p[2], p[3]]);
   drawBands(byId("volume"), xScale, linear(Math.min(...all), Math.max(...all)), UNITS[shown.time], "hypervolume: cycles × log error", volumes, false);
   const errors = bands((run, t) => at(run, run.trace.errors[run.trace.costs.indexOf(data.costs[shown.cost])] ?? [], t));
-  drawBands(byId("error"), xScale, logarithmicOver(errors.flat().flatMap((p) => [p[2], p[3]])), UNITS[shown.time], `RMSE at ${data.costs[shown.cost]} cycles at most, before polishing`, errors, false);
+  drawBands(byId("error"), xScale, logarithmicOver(errors.flat().flatMap((p) => [p[2], p[3]])), UNITS[shown.time], `error at ${data.costs[shown.cost]} cycles at most, before polishing`, errors, false);
 }
 
 function drawComparison() {
