@@ -31,11 +31,11 @@ pub(super) fn polish(
 ) -> Option<FrontMember> {
     let mut fitter = Fitter::default();
     let mut draft = draft.clone();
-    fitter.fit(&mut draft, &problem.all, TO_CONVERGENCE);
     if measure == Measure::Max {
         minimax(&mut fitter, &mut draft, &problem.all, Rounds::TO_CONVERGENCE);
         shorten_minimax(&mut fitter, &mut draft, &problem.all, MINIMAX_ALLOWANCE);
     } else {
+        fitter.fit(&mut draft, &problem.all, TO_CONVERGENCE);
         shorten(&mut fitter, &mut draft, &problem.all, SHORTENING_ALLOWANCE);
     }
     finished(&draft, problem, names, measure).or_else(|| {
@@ -79,16 +79,29 @@ fn divides_constants(program: &Program) -> bool {
     program.instrs.iter().any(|instr| instr.args().iter().all(is_constant))
 }
 
-/// Of many drafts those that a few rounds bring near the least maximum error at their
-/// cost.
+/// Of many drafts those that come near the least maximum error at their cost, by a quick look, and of
+/// those by a closer one.
 pub(super) fn promising(drafts: Vec<Draft>, problem: &Problem) -> Vec<Draft> {
+    let first = near_the_least(drafts, problem, FIRST_LOOK, 1.4);
+    near_the_least(first, problem, SECOND_LOOK, 1.1)
+}
+
+const FIRST_LOOK: Rounds = Rounds {
+    most: 3,
+    steps: Stop { max_steps: 2, min_gain: 1e-3 },
+    programs: 0,
+    wanted: f64::INFINITY,
+};
+const SECOND_LOOK: Rounds = Rounds { most: 0, programs: 4, ..FIRST_LOOK };
+
+/// Those whose maximum error is less than `within` times that of every cheaper one.
+fn near_the_least(drafts: Vec<Draft>, problem: &Problem, look: Rounds, within: f64) -> Vec<Draft> {
     let mut tried: Vec<(f64, f64, Draft)> = drafts
         .into_par_iter()
         .map_init(
             || (Fitter::default(), CostScratch::default()),
             |(fitter, scratch), mut draft| {
-                fitter.fit(&mut draft, &problem.all, FIRST_LOOK.steps);
-                let error = minimax(fitter, &mut draft, &problem.all, FIRST_LOOK);
+                let error = minimax(fitter, &mut draft, &problem.all, look);
                 (problem.cost(&draft, scratch), error, draft)
             },
         )
@@ -96,22 +109,12 @@ pub(super) fn promising(drafts: Vec<Draft>, problem: &Problem) -> Vec<Draft> {
     tried.sort_by(|a, b| a.0.total_cmp(&b.0).then(a.1.total_cmp(&b.1)));
     let mut least = f64::INFINITY;
     tried.retain(|(_, error, _)| {
-        let near = *error < least * PROMISING;
+        let near = *error < least * within;
         least = least.min(*error);
         near
     });
     tried.into_iter().map(|(_, _, draft)| draft).collect()
 }
-
-const FIRST_LOOK: Rounds = Rounds {
-    most: 4,
-    steps: Stop { max_steps: 3, min_gain: 1e-4 },
-    programs: 3,
-    wanted: f64::INFINITY,
-};
-
-/// Times the least error found so far.
-const PROMISING: f64 = 1.1;
 
 /// What the simpler form may lose by rounding.
 const WORSE: f64 = 1.0005;
