@@ -80,15 +80,18 @@ fn the_papers_bias_is_found_or_dominated() {
 #[test]
 fn a_seed_repeats_a_search_at_any_number_of_threads() {
     let data = dataset("dfg", &["scale", "bias"]);
-    let settings = || Settings { seed: 7, migration_interval: 3, ..Settings::default() };
-    let json = |threads| {
-        in_pool(threads, || search(&data, "shader", 8, settings())).to_json(&data.names())
-    };
-    let one = json(1);
-    assert_eq!(one, json(2));
-    assert_eq!(one, json(3));
-    let other = Settings { seed: 8, ..settings() };
-    assert_ne!(one, search(&data, "shader", 8, other).to_json(&data.names()));
+    for (measure, generations) in [(Measure::Rmse, 8), (Measure::Max, 4)] {
+        let settings =
+            || Settings { seed: 7, migration_interval: 3, measure, ..Settings::default() };
+        let json = |threads, settings: Settings| {
+            in_pool(threads, || search(&data, "shader", generations, settings))
+                .to_json(&data.names())
+        };
+        let one = json(1, settings());
+        assert_eq!(one, json(2, settings()));
+        assert_eq!(one, json(3, settings()));
+        assert_ne!(one, json(2, Settings { seed: 8, ..settings() }));
+    }
 }
 
 /// A search for the maximum error goes by it, on all samples, and polishing only makes it smaller.
@@ -117,6 +120,57 @@ fn the_maximum_error_can_be_searched_for() {
         };
         assert!(front.members.iter().any(as_good), "{} {largest}", member.cost);
     }
+}
+
+/// What data weigh is not what their maximum counts.
+#[test]
+fn the_front_for_the_maximum_error_heeds_no_weights() {
+    let mut data = dataset("dfg", &["bias"]);
+    let minimax = |data: &Dataset| {
+        let line = parse("bias = 0.5 - 0.5*n_dot_v", &data.names()).unwrap().into_draft();
+        let grammar = Grammar::find("shader").unwrap();
+        let profile = Profile::find("gcn").unwrap();
+        let measure = Measure::usual(&data.search);
+        let settings = Settings { max_cost: 1.0, measure, ..Settings::default() };
+        let problem = Problem::new(data, &grammar, &profile, &settings);
+        let mut search = Search::new(settings);
+        search.settle(&[line], &problem);
+        Front::in_measure(&search, &problem, Measure::Max).members[0].search_error().max
+    };
+    let unweighted = minimax(&data);
+    data.search.weights = data.search.columns[0].iter().map(|x| 0.01 + x * x).collect();
+    let weighted = minimax(&data);
+    assert!((weighted / unweighted - 1.0).abs() < 0.02, "{weighted} {unweighted}");
+}
+
+/// Between samples, too, a root is of no negative number.
+#[test]
+fn roots_are_guarded_where_that_is_free() {
+    let xs: Vec<f32> = (0..64).map(|i| i as f32 / 63.0).collect();
+    let column = |name: &str| Column { name: name.into(), unit: "1".into(), domain: [0.0, 1.0] };
+    let ys = xs.iter().map(|x| x.acos()).collect();
+    let split = Split { columns: vec![xs, ys], ..Split::default() };
+    let data = Dataset {
+        name: "acos".into(),
+        recipe: "acos".into(),
+        inputs: vec![column("x")],
+        outputs: vec![column("y")],
+        search: split.clone(),
+        validation: split,
+    };
+    let root = "y = sqrt(x*(x*(x*(0.077*x - 0.351) + 0.9396) - 3.1326) + 2.4671)";
+    let root = parse(root, &data.names()).unwrap();
+    let grammar = Grammar::find("shader").unwrap();
+    let profile = Profile::find("gcn").unwrap();
+    let settings = Settings { max_cost: 8.0, ..Settings::default() };
+    let problem = Problem::new(&data, &grammar, &profile, &settings);
+    let mut search = Search::new(settings);
+    search.settle(&[root.into_draft()], &problem);
+    let front = Front::of(&search, &problem);
+    assert_eq!(front.members.len(), 1);
+    let FrontMember { formula, verdict, .. } = &front.members[0];
+    assert!(formula.contains("sqrt(abs("), "{formula}");
+    assert_eq!(verdict.finite.exact.status, "proved", "{formula}");
 }
 
 #[test]
@@ -268,7 +322,7 @@ fn ends_are_met() {
         validation: split,
     };
     for measure in [Measure::Rmse, Measure::Max] {
-        let requirements = vec![Requirement::parse("ends=x", &data.names()).unwrap()];
+        let requirements = vec![Requirement::parse("ends=x", &data.names()).unwrap(); 2];
         let settings = Settings { max_cost: 8.0, requirements, measure, ..Settings::default() };
         let front = search(&data, "shader", 10, settings);
         assert!(!front.members.is_empty(), "{measure}");

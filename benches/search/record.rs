@@ -96,7 +96,7 @@ pub struct Member {
 #[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct TracePoint {
     pub seconds: f64,
-    /// The least RMSE at each of [`TRACED`] or below, not polished yet.
+    /// The least of what is made small at each of [`TRACED`] or below, not polished yet.
     pub errors: [Option<f64>; TRACED.len()],
 }
 

@@ -54,7 +54,8 @@ median over seeds of the best formula at that cost or below, and behind × the w
 median. Budgets are seconds on two threads, of wall time or, where `DATA/BUDGET.json` says so, of the CPU
 time that a quiet machine spends in such a second (1.8 s: threads wait for each other), so that other
 work on the machine changes nothing. `table.csv` has every whole cost,
-`published.csv` each published formula, `DATA/BUDGET.json` the fronts and traces.
+`published.csv` each published formula, `DATA/BUDGET.json` the fronts and traces, `DATA/BUDGET-max.json` those of
+searches for the maximum error.
 
 A published formula is *halved* where the median seed has half its error at its cost or below.
 ";
@@ -66,14 +67,19 @@ pub fn write(out: &Path, cases: &[Case]) -> Result<(), Box<dyn Error>> {
         "data,budget,formula,cost,rmse,max,median_rmse,share,seeds_halving,seeds\n".to_owned();
     for case in cases {
         let all = Runs::of(out, &case.name, Measure::Rmse)?;
-        let Some(longest) = all.last() else { continue };
-        plot(out, case, longest)?;
-        write!(page, "\n## {}\n{}.\n\n", case.name, case.definition)?;
-        writeln!(page, "![Error against time]({}/time.svg)\n", case.name)?;
-        overview(&mut page, &all)?;
+        let by_maximum = Runs::of(out, &case.name, Measure::Max)?;
+        if all.is_empty() && by_maximum.is_empty() {
+            continue;
+        }
+        write!(page, "\n## {}\n{}.\n", case.name, case.definition)?;
+        if let Some(longest) = all.last() {
+            plot(out, case, longest)?;
+            writeln!(page, "\n![Error against time]({}/time.svg)\n", case.name)?;
+            overview(&mut page, &all)?;
+        }
         goals(&mut page, &all)?;
         maximum_errors(&mut page, &all)?;
-        maximum_errors(&mut page, &Runs::of(out, &case.name, Measure::Max)?)?;
+        maximum_errors(&mut page, &by_maximum)?;
         against_published(&mut page, &mut published, case, &all)?;
         for runs in &all {
             rows(&mut table, runs)?;
@@ -172,7 +178,7 @@ fn against_published(
     case: &Case,
     all: &[Runs],
 ) -> std::fmt::Result {
-    if case.published.is_empty() {
+    if case.published.is_empty() || all.is_empty() {
         return Ok(());
     }
     let budgets: Vec<&str> = all.iter().map(|runs| runs.budget.as_str()).collect();

@@ -34,7 +34,6 @@ pub fn create(folder: &Path) -> Result<(), Failure> {
 /// A run's folder before the run is done.
 pub struct PartialRun {
     folder: PathBuf,
-    resumed: bool,
     trace: Vec<TracePoint>,
     /// The lines of the run that this one goes on with.
     earlier_trace: String,
@@ -48,7 +47,6 @@ impl PartialRun {
         let census = if resumed { Census::load(folder)? } else { None };
         Ok(PartialRun {
             folder: folder.to_owned(),
-            resumed,
             trace: Vec::new(),
             earlier_trace: earlier.flatten().unwrap_or_default(),
             census: census.unwrap_or_default(),
@@ -80,13 +78,11 @@ impl PartialRun {
         Ok(())
     }
 
-    /// Writes what `--resume` goes on with. Fronts of an earlier run are not this one's: without
-    /// them its folder is known for that of a search that has not ended.
+    /// Writes what `--resume` goes on with. Fronts that are there are of an earlier end, or run: without
+    /// them the folder is known for that of a search that has not ended.
     fn checkpoint(&self, run: &Run, search: &Search, dataset: &Dataset) -> Result<(), Failure> {
-        if !self.resumed {
-            for file in [FRONT, MINIMAX_FRONT] {
-                let _ = std::fs::remove_file(self.folder.join(file));
-            }
+        for file in [FRONT, MINIMAX_FRONT] {
+            let _ = std::fs::remove_file(self.folder.join(file));
         }
         write(&self.folder, "trace.csv", self.trace_text(search.settings().measure).as_bytes())?;
         self.census.save(&self.folder)?;

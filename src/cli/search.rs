@@ -6,7 +6,7 @@ use crate::dataset::Dataset;
 use crate::fit::Measure;
 use crate::grammar::Grammar;
 use crate::program::{Draft, parse};
-use crate::report::table::{Published, front_table};
+use crate::report::table::{Published, front_table, title};
 use crate::search::{
     Enumeration, Front, MemberRecord, Problem, Requirement, Run, Search, Settings, TracePoint,
     Transform,
@@ -152,7 +152,10 @@ pub fn run(args: &Args, common: &Common) -> Result<(), Failure> {
             partial.record(point, search, dataset, || describe(search, seconds))
         })?;
     let front = Front::of(&search, &problem);
-    let minimax = Front::in_measure(&search, &problem, Measure::Max);
+    let minimax = match front.measure {
+        Measure::Max => front.clone(),
+        _ => Front::in_measure(&search, &problem, Measure::Max),
+    };
     let run = describe(&search, seconds);
     partial.finish(&run, &front, &minimax, &incumbents, &search, dataset)?;
     report::write(&folder, common)?;
@@ -294,7 +297,7 @@ fn evolve(
             (Some(time), None) => point.seconds / time.as_secs_f64().max(1e-3),
             (None, None) => 0.0,
         };
-        show_progress(&bar, &point, progress);
+        show_progress(&bar, &point, search.settings().measure, progress);
         let stalled = progress_made.as_mut().is_some_and(|improvement| improvement.stalled(&point));
         record(point, search)?;
         if stalled {
@@ -333,7 +336,7 @@ fn live_front(common: &Common) -> ProgressBar {
     ProgressBar::new(1000).with_style(style.unwrap_or_else(|_| ProgressStyle::default_bar()))
 }
 
-fn show_progress(bar: &ProgressBar, point: &TracePoint, progress: f64) {
+fn show_progress(bar: &ProgressBar, point: &TracePoint, measure: Measure, progress: f64) {
     if bar.is_hidden() {
         return;
     }
@@ -349,7 +352,7 @@ fn show_progress(bar: &ProgressBar, point: &TracePoint, progress: f64) {
         point.counts.considered,
         point.counts.fitted,
         row("cycles", costs),
-        row("RMSE", errors)
+        row(title(measure), errors)
     ));
     bar.set_position((progress.min(1.0) * 1000.0) as u64);
 }

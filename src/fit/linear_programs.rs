@@ -6,9 +6,10 @@ use super::minimax::{errors, scaled};
 use crate::eval::{Samples, Values};
 use crate::program::Draft;
 
-/// A box's half width, relative to each constant.
-const FIRST_REACH: f64 = 0.1;
-const LEAST_REACH: f64 = 1e-6;
+/// The trust region's radius, relative to each constant: at first, and its bounds.
+const FIRST_RADIUS: f64 = 0.1;
+const LEAST_RADIUS: f64 = 1e-6;
+const MOST_RADIUS: f64 = 2.0;
 
 /// Where a linear program promises less than this share, it was the last.
 const LEAST_GAIN: f64 = 1e-4;
@@ -68,11 +69,11 @@ impl Linearised {
         }
     }
 
-    /// The best step within the box, in units of its half widths, and the largest error expected there.
-    fn step(&self, reach: f64) -> Option<(Vec<f64>, f64)> {
+    /// The best step within the trust region, in units of its radius, and the largest error expected there.
+    fn step(&self, radius: f64) -> Option<(Vec<f64>, f64)> {
         let mut spread = vec![0.0; self.errors.len()];
         for slope in &self.slopes {
-            spread.iter_mut().zip(slope).for_each(|(sum, slope)| *sum += (slope * reach).abs());
+            spread.iter_mut().zip(slope).for_each(|(sum, slope)| *sum += (slope * radius).abs());
         }
         if !spread.iter().all(|spread| spread.is_finite()) {
             return None;
@@ -83,14 +84,14 @@ impl Linearised {
         let rows: Vec<usize> =
             (0..self.errors.len()).filter(|&i| self.errors[i].abs() + spread[i] >= sure).collect();
         let errors: Vec<f64> = rows.iter().map(|&i| self.errors[i]).collect();
-        let reached = |slope: &Vec<f64>| rows.iter().map(|&i| slope[i] * reach).collect();
-        let slopes: Vec<Vec<f64>> = self.slopes.iter().map(reached).collect();
+        let scaled_down = |slope: &Vec<f64>| rows.iter().map(|&i| slope[i] * radius).collect();
+        let slopes: Vec<Vec<f64>> = self.slopes.iter().map(scaled_down).collect();
         least_maximum(&errors, &slopes)
     }
 }
 
 /// Moves the constants by the solutions of linear programs: the least maximum error of the program
-/// linearised where it stands, within a box around it (Madsen 1975, "An algorithm for minimax solution of
+/// linearised where it stands, within a trust region around it (Madsen 1975, "An algorithm for minimax solution of
 /// overdetermined systems of non-linear equations"). Gives the largest error.
 pub(super) fn by_linear_programs(
     fitter: &mut Fitter,
@@ -102,23 +103,23 @@ pub(super) fn by_linear_programs(
 ) -> f64 {
     let mut values = Values::default();
     let mut trial = program.clone();
-    let mut reach = FIRST_REACH;
+    let mut radius = FIRST_RADIUS;
     let mut linear = Linearised::default();
     let mut stale = true;
     for _ in 0..most {
-        if !best.is_finite() || best == 0.0 || reach < LEAST_REACH {
+        if !best.is_finite() || best == 0.0 || radius < LEAST_RADIUS {
             break;
         }
         if stale {
             linear.assign(fitter, program, samples, is_free, &mut values);
         }
-        let Some((step, least)) = linear.step(reach) else { break };
+        let Some((step, least)) = linear.step(radius) else { break };
         if least > best * (1.0 - LEAST_GAIN) {
             break;
         }
         trial.copy_from(program);
         for (&(constant, scale), step) in linear.constants.iter().zip(step) {
-            trial.consts[constant] += (step * reach * scale) as f32;
+            trial.consts[constant] += (step * radius * scale) as f32;
         }
         let (_, largest) = errors(fitter, &trial, samples, &mut values);
         stale = largest < best;
@@ -127,12 +128,13 @@ pub(super) fn by_linear_programs(
             best = largest;
             program.copy_from(&trial);
         }
-        reach *= match gain {
+        let change = match gain {
             gain if gain > 0.75 => 2.0,
             gain if gain > 0.25 => 1.0,
             gain if gain > 0.0 => 0.5,
             _ => 0.25,
         };
+        radius = (radius * change).min(MOST_RADIUS);
     }
     best
 }

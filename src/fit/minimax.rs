@@ -14,7 +14,7 @@ pub struct Rounds {
     /// Between two of them.
     pub steps: Stop,
     /// Linear programs that are solved then, at most.
-    pub programs: u32,
+    pub linear_programs: u32,
     /// The error that is to be beaten: what stays far above it is given up.
     pub wanted: f64,
 }
@@ -24,7 +24,7 @@ impl Rounds {
     pub const TO_CONVERGENCE: Rounds = Rounds {
         most: 8,
         steps: Stop { max_steps: 3, min_gain: 1e-4 },
-        programs: 40,
+        linear_programs: 40,
         wanted: f64::INFINITY,
     };
 }
@@ -51,7 +51,7 @@ pub fn minimax_free(
 ) -> f64 {
     let mut best = by_weights(fitter, program, samples, rounds, is_free);
     if best <= rounds.wanted * NEAR {
-        best = by_linear_programs(fitter, program, samples, rounds.programs, is_free, best);
+        best = by_linear_programs(fitter, program, samples, rounds.linear_programs, is_free, best);
     }
     best
 }
@@ -70,7 +70,8 @@ fn by_weights(
     let mut trial = program.clone();
     let (mut mean, mut best) = errors(fitter, &trial, samples, &mut values);
     for _ in 0..rounds.most {
-        if best > rounds.wanted * FAR || !mean.is_finite() || program.consts.is_empty() {
+        let hopeless = best > rounds.wanted * FAR || !mean.is_finite();
+        if hopeless || best == 0.0 || program.consts.is_empty() {
             break;
         }
         for (output, weights) in weights.iter_mut().enumerate() {

@@ -91,16 +91,17 @@ impl Front {
     /// only by way of theirs, the islands' best compete as well.
     pub fn in_measure(search: &Search, problem: &Problem, measure: Measure) -> Front {
         let names = problem.dataset.names();
+        let samples = problem.all_in(measure);
         let archive = search.archive().members().iter().map(|member| &member.draft);
         let mut drafts: Vec<Draft> = archive.cloned().collect();
         if measure == Measure::Max {
             drafts.extend(search.contenders().into_iter().cloned());
-            drafts = promising(drafts, problem);
+            drafts = promising(drafts, problem, &samples);
         }
         // What is brought into its range by polishing may have become too dear.
         let polished = drafts
             .par_iter()
-            .filter_map(|draft| polish(draft, problem, &names, measure))
+            .filter_map(|draft| polish(draft, problem, &samples, &names, measure))
             .filter(|member| member.cost <= search.settings().max_cost);
         let mut front = Front::from_members(polished.collect(), measure);
         front.judge(&problem.questions(), &names);

@@ -29,12 +29,12 @@ const ALL_SAMPLES: Stop = Stop { max_steps: 8, min_gain: 1e-3 };
 const LEVELLING: Rounds = Rounds {
     most: 3,
     steps: Stop { max_steps: 2, min_gain: 1e-3 },
-    programs: 4,
+    linear_programs: 4,
     wanted: f64::INFINITY,
 };
 
 /// After the first steps a candidate this many times worse (in mean square) than what it must beat is
-/// hopeless.
+/// hopeless; or its mean of squares, where it is the square of the maximum that must be beaten.
 const HOPELESS: f64 = 6.0;
 
 /// The subset's error estimates the whole table's to within this share.
@@ -121,7 +121,6 @@ impl Island {
         rng.set_stream(stream);
         self.workshop.variation.follow(&self.rates);
         for _ in 0..self.candidates(settings) {
-            self.counts.considered += 1;
             let made_by = self.conceive(&mut rng, problem, settings.immigrants);
             for (output, transform) in problem.transforms() {
                 transform.undo(&mut self.workshop.child, output);
@@ -162,6 +161,7 @@ impl Island {
 
     /// Simplifies, costs, fits and offers the child; drops it where it has no chance.
     fn consider(&mut self, problem: &Problem) {
+        self.counts.considered += 1;
         match self.newcomer(problem) {
             Err(fate) => self.counts.note(fate),
             Ok(newcomer) => {

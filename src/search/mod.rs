@@ -6,7 +6,8 @@
 //!
 //! Islands differ in the cycles that a formula may cost there, and in who competes: on some only formulas
 //! with the same families of operations, so that a root or an exponential, dear at first, can grow. Where the
-//! maximum error is to be small, on half of them it decides, on the others RMSE still does.
+//! maximum error is to be small, it decides in the archive, and on every fourth island; on the others RMSE
+//! does, which is found out sooner.
 
 mod census;
 mod enumerate;
@@ -36,6 +37,7 @@ use crate::fit::Measure;
 use crate::grammar::Grammar;
 use crate::program::{Constants, Draft, structural_hash};
 use island::Island;
+use population::Individual;
 use rayon::prelude::*;
 use require::{Checks, with_ends};
 use serde::{Deserialize, Serialize};
@@ -102,7 +104,8 @@ pub struct Problem<'a> {
 }
 
 impl<'a> Problem<'a> {
-    /// Lays the samples out, with a subset of `settings.subset` of them.
+    /// Lays the samples out, with a subset of `settings.subset` of them; where the maximum error is to be
+    /// small, and of as many at the ends of the inputs.
     ///
     /// # Panics
     /// If the dataset is not valid.
@@ -113,19 +116,16 @@ impl<'a> Problem<'a> {
         settings: &Settings,
     ) -> Problem<'a> {
         let inputs = dataset.inputs.len();
-        let split = with_ends(dataset, &settings.requirements, settings.measure);
+        let (split, measure) = with_ends(dataset, &settings.requirements, settings.measure);
         let mut rows = spread_rows(dataset.search.rows(), settings.subset);
         if settings.measure == Measure::Max {
-            rows.extend(edge_rows(&dataset.search, inputs));
+            let edges = edge_rows(&dataset.search, inputs);
+            let chosen = spread_rows(edges.len(), settings.subset);
+            rows.extend(chosen.into_iter().map(|place| edges[place as usize]));
             rows.sort_unstable();
             rows.dedup();
         }
         rows.extend(dataset.search.rows() as u32..split.rows() as u32);
-        // The ends count by weight.
-        let measure = match split.rows() > dataset.search.rows() {
-            true => Measure::Weighted,
-            false => settings.measure,
-        };
         Problem {
             dataset,
             grammar,
@@ -136,6 +136,15 @@ impl<'a> Problem<'a> {
             all: measure.all_samples(&split, inputs),
             subset: measure.samples(&split, inputs, &rows),
         }
+    }
+
+    /// All samples, weighing as they do in a measure.
+    fn all_in(&self, measure: Measure) -> Samples {
+        if measure == self.measure {
+            return self.all.clone();
+        }
+        let (split, measure) = with_ends(self.dataset, self.checks.requirements(), measure);
+        measure.all_samples(&split, self.dataset.inputs.len())
     }
 
     /// The outputs that are searched for through a function of them.
@@ -174,19 +183,26 @@ fn spread_rows(rows: usize, wanted: usize) -> Vec<u32> {
 }
 
 /// Rows at which an input is at an end: where errors are largest, more often than not.
-fn edge_rows(split: &Split, inputs: usize) -> impl Iterator<Item = u32> {
-    split.columns[..inputs].iter().flat_map(|column| {
-        let low = column.iter().copied().fold(f32::INFINITY, f32::min);
-        let high = column.iter().copied().fold(f32::NEG_INFINITY, f32::max);
-        let at_an_end = move |row: &u32| [low, high].contains(&column[*row as usize]);
-        (0..column.len() as u32).filter(at_an_end)
-    })
+fn edge_rows(split: &Split, inputs: usize) -> Vec<u32> {
+    let bounds = |column: &Vec<f32>| {
+        let ends = (f32::INFINITY, f32::NEG_INFINITY);
+        column.iter().fold(ends, |(low, high), &x| (low.min(x), high.max(x)))
+    };
+    let ends: Vec<(f32, f32)> = split.columns[..inputs].iter().map(bounds).collect();
+    let at_an_end = |row: &u32| {
+        let mut cells = split.columns.iter().zip(&ends).map(|(c, ends)| (c[*row as usize], ends));
+        cells.any(|(x, (low, high))| x == *low || x == *high)
+    };
+    (0..split.rows() as u32).filter(at_an_end).collect()
 }
 
-/// In mean square, how much worse than the archive's a contender may be; in the square of the maximum
-/// error, where that is what was searched for.
+/// In mean square, how much worse than the archive's a contender may be.
 const CONTENDING: f64 = 4.0;
+
+/// Where the maximum error was searched for, the archive's losses are its squares: how much larger a
+/// contender's may be, and how much of them its mean of squares, where that is its loss.
 const CONTENDING_BY_MAXIMUM: f64 = 1.5;
+const CONTENDING_BY_MEAN: f64 = 0.3;
 
 /// What became of the candidates; each is counted once under `considered` and where it ended.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
@@ -290,19 +306,24 @@ impl Search {
     /// are not much worse than its own.
     fn contenders(&self) -> Vec<&Draft> {
         let archive = self.archive();
-        let contending = match self.settings.measure {
-            Measure::Max => CONTENDING_BY_MAXIMUM,
-            _ => CONTENDING,
-        };
         let mut hashes = Vec::new();
         let mut structure = |draft| structural_hash(draft, Constants::Ignored, &mut hashes);
         let mut known: HashSet<u64> =
             archive.members().iter().map(|member| structure(&member.draft)).collect();
-        let all = self.islands.iter().flat_map(|island| island.population.individuals());
-        all.filter(|one| one.loss < contending * archive.best_loss(one.cost))
-            .filter(|one| known.insert(one.hash))
-            .map(|one| &one.draft)
-            .collect()
+        let mut contenders = Vec::new();
+        for island in &self.islands {
+            let share = match (self.settings.measure, island.by_maximum) {
+                (Measure::Max, true) => CONTENDING_BY_MAXIMUM,
+                (Measure::Max, false) => CONTENDING_BY_MEAN,
+                _ => CONTENDING,
+            };
+            for one in island.population.individuals() {
+                if one.loss < share * archive.best_loss(one.cost) && known.insert(one.hash) {
+                    contenders.push(&one.draft);
+                }
+            }
+        }
+        contenders
     }
 
     /// What became of all candidates so far.
@@ -331,21 +352,22 @@ impl Search {
             island.archive.clone_from(&self.archive);
         }
         if self.generation.is_multiple_of(self.settings.migration_interval) {
-            let elites: Vec<Vec<_>> = self
-                .islands
-                .iter()
-                .map(|island| island.population.elites().cloned().collect())
-                .collect();
-            let count = self.islands.len();
-            for (i, migrants) in elites.into_iter().enumerate() {
-                let alike = self.islands[i].by_maximum == self.islands[(i + 1) % count].by_maximum;
-                let next = &mut self.islands[(i + 1) % count];
-                match alike {
-                    true => next.welcome(migrants),
-                    false => migrants.iter().for_each(|one| next.settle(&one.draft, problem)),
-                }
-            }
+            self.migrate(problem);
         }
+    }
+
+    /// Each island's best go on to the next. Where that goes by another error, as drafts.
+    fn migrate(&mut self, problem: &Problem) {
+        let elites =
+            |island: &Island| (island.by_maximum, island.population.elites().cloned().collect());
+        let mut arriving: Vec<(bool, Vec<Individual>)> = self.islands.iter().map(elites).collect();
+        arriving.rotate_right(1);
+        self.islands.par_iter_mut().zip(arriving).for_each(|(island, (by_maximum, migrants))| {
+            match by_maximum == island.by_maximum {
+                true => island.welcome(migrants),
+                false => migrants.iter().for_each(|one| island.settle(&one.draft, problem)),
+            }
+        });
     }
 
     /// Starts every island with drafts from elsewhere.

@@ -4,7 +4,7 @@ use super::Problem;
 use super::front::FrontMember;
 use crate::cost::CostScratch;
 use crate::dataset::Column;
-use crate::eval::{Arithmetic, Bounds};
+use crate::eval::{Arithmetic, Bounds, Samples};
 use crate::fit::{Fitter, Measure, Rounds, Stop, minimax, shorten, shorten_minimax};
 use crate::num::{Interval, enclose};
 use crate::op::{MAX_ARITY, Op};
@@ -26,17 +26,18 @@ const MINIMAX_ALLOWANCE: f64 = 0.01;
 pub(super) fn polish(
     draft: &Draft,
     problem: &Problem,
+    samples: &Samples,
     names: &Names,
     measure: Measure,
 ) -> Option<FrontMember> {
     let mut fitter = Fitter::default();
     let mut draft = draft.clone();
     if measure == Measure::Max {
-        minimax(&mut fitter, &mut draft, &problem.all, Rounds::TO_CONVERGENCE);
-        shorten_minimax(&mut fitter, &mut draft, &problem.all, MINIMAX_ALLOWANCE);
+        minimax(&mut fitter, &mut draft, samples, Rounds::TO_CONVERGENCE);
+        shorten_minimax(&mut fitter, &mut draft, samples, MINIMAX_ALLOWANCE);
     } else {
-        fitter.fit(&mut draft, &problem.all, TO_CONVERGENCE);
-        shorten(&mut fitter, &mut draft, &problem.all, SHORTENING_ALLOWANCE);
+        fitter.fit(&mut draft, samples, TO_CONVERGENCE);
+        shorten(&mut fitter, &mut draft, samples, SHORTENING_ALLOWANCE);
     }
     finished(&draft, problem, names, measure).or_else(|| {
         // What leaves its range is brought into it, if that is all that is wrong.
@@ -53,55 +54,91 @@ fn finished(
     names: &Names,
     measure: Measure,
 ) -> Option<FrontMember> {
+    let mut simplifier = Simplifier::default();
     let mut simple = Draft::default();
-    Simplifier::default().simplify(draft, &mut simple);
-    let finished = [draft.clone(), simple].into_iter().filter_map(|draft| {
+    simplifier.simplify(draft, &mut simple);
+    let guarded = guarded(&simple, problem);
+    let finished = [draft.clone(), simple].into_iter().chain(guarded).filter_map(|draft| {
         let active = without_idle(Program::verify(draft).ok()?, &problem.dataset.inputs);
-        let program = effective(&tidy(&active));
-        if divides_constants(&program) {
-            return None;
+        let mut program = effective(&tidy(&active));
+        if reads_only_constants(&program) {
+            let mut folded = Draft::default();
+            simplifier.simplify(&active, &mut folded);
+            program = effective(&tidy(&Program::verify(folded).ok()?));
         }
-        Some(FrontMember::new(program, problem.dataset, problem.profile, names))
+        let member = FrontMember::new(program, problem.dataset, problem.profile, names);
+        (!reads_only_constants(&member.program)).then_some(member)
     });
     let error = |member: &FrontMember| (member.cost, member.search_error().of(measure) * WORSE);
     let shown =
         finished.filter(|member| member.score.is_finite() && problem.shows(&member.program));
-    shown.reduce(|plain, simple| {
-        let ((cost, error), simple_error) = (error(&plain), simple.search_error().of(measure));
-        if simple.cost <= cost && simple_error <= error { simple } else { plain }
+    shown.reduce(|plain, other| {
+        let ((cost, error), other_error) = (error(&plain), other.search_error().of(measure));
+        if other.cost <= cost && other_error <= error { other } else { plain }
     })
 }
 
-/// Whether an operation reads constants alone. All such are folded but those without a finite value, such as a
+/// Whether an operation reads constants alone: where it cannot be folded, it has no finite value, such as a
 /// quotient by a constant that has become zero.
-fn divides_constants(program: &Program) -> bool {
+fn reads_only_constants(program: &Program) -> bool {
     let is_constant = |arg: &Arg| matches!(arg, Arg::Const(_));
     program.instrs.iter().any(|instr| instr.args().iter().all(is_constant))
 }
 
+/// The formula with the absolute value of what roots, logarithms and powers are taken of: between
+/// samples, too, it is no NaN then, and the sign costs nothing on most GPUs. Nothing where there is none to take, or the
+/// grammar lacks the operation.
+fn guarded(draft: &Draft, problem: &Problem) -> Option<Draft> {
+    if !problem.grammar.operations.iter().any(|(op, _)| *op == Op::Abs) {
+        return None;
+    }
+    let mut guarded = Draft { instrs: Vec::new(), outputs: Vec::new(), ..draft.clone() };
+    let mut moved: Vec<Arg> = Vec::new();
+    for instr in &draft.instrs {
+        let mut args = [Arg::Input(0); MAX_ARITY];
+        for (to, &arg) in args.iter_mut().zip(instr.args()) {
+            *to = arg;
+            redirect(to, &moved);
+        }
+        if let Op::Sqrt | Op::Rsqrt | Op::Log2 | Op::Log | Op::Pow = instr.op() {
+            args[0] = guarded.push(Op::Abs, &[args[0]]);
+        }
+        moved.push(guarded.push(instr.op(), &args[..instr.args().len()]));
+    }
+    guarded.outputs.extend(&draft.outputs);
+    guarded.outputs.iter_mut().for_each(|output| redirect(output, &moved));
+    (guarded.instrs.len() > draft.instrs.len()).then_some(guarded)
+}
+
 /// Of many drafts those that come near the least maximum error at their cost, by a quick look, and of
 /// those by a closer one.
-pub(super) fn promising(drafts: Vec<Draft>, problem: &Problem) -> Vec<Draft> {
-    let first = near_the_least(drafts, problem, FIRST_LOOK, 1.4);
-    near_the_least(first, problem, SECOND_LOOK, 1.1)
+pub(super) fn promising(drafts: Vec<Draft>, problem: &Problem, samples: &Samples) -> Vec<Draft> {
+    let first = near_the_least(drafts, problem, samples, FIRST_LOOK, 1.4);
+    near_the_least(first, problem, samples, SECOND_LOOK, 1.1)
 }
 
 const FIRST_LOOK: Rounds = Rounds {
     most: 3,
     steps: Stop { max_steps: 2, min_gain: 1e-3 },
-    programs: 0,
+    linear_programs: 0,
     wanted: f64::INFINITY,
 };
-const SECOND_LOOK: Rounds = Rounds { most: 0, programs: 4, ..FIRST_LOOK };
+const SECOND_LOOK: Rounds = Rounds { most: 0, linear_programs: 4, ..FIRST_LOOK };
 
 /// Those whose maximum error is less than `within` times that of every cheaper one.
-fn near_the_least(drafts: Vec<Draft>, problem: &Problem, look: Rounds, within: f64) -> Vec<Draft> {
+fn near_the_least(
+    drafts: Vec<Draft>,
+    problem: &Problem,
+    samples: &Samples,
+    look: Rounds,
+    within: f64,
+) -> Vec<Draft> {
     let mut tried: Vec<(f64, f64, Draft)> = drafts
         .into_par_iter()
         .map_init(
             || (Fitter::default(), CostScratch::default()),
             |(fitter, scratch), mut draft| {
-                let error = minimax(fitter, &mut draft, &problem.all, look);
+                let error = minimax(fitter, &mut draft, samples, look);
                 (problem.cost(&draft, scratch), error, draft)
             },
         )

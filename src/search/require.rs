@@ -141,6 +141,10 @@ pub(super) struct Checks {
 }
 
 impl Checks {
+    pub fn requirements(&self) -> &[Requirement] {
+        &self.requirements
+    }
+
     pub fn new(requirements: &[Requirement], dataset: &Dataset) -> Checks {
         let samples = requirements.iter().map(|requirement| samples_for(requirement, dataset));
         let rows = dataset.search.rows();
@@ -321,32 +325,41 @@ fn samples_for(requirement: &Requirement, dataset: &Dataset) -> Vec<Samples> {
     }
 }
 
-/// The search split, and at the ends that must be exact the validation split's rows, weighing more.
+/// The search split, and at the ends that must be exact the validation split's rows, weighing more; and the
+/// measure by which such samples are laid out.
 pub(super) fn with_ends(
     dataset: &Dataset,
     requirements: &[Requirement],
     measure: Measure,
-) -> Split {
+) -> (Split, Measure) {
     let mut split = dataset.search.clone();
-    let (weighs, weight_of_ends) = match measure {
-        Measure::Max => (false, WEIGHT_OF_ENDS_BY_MAXIMUM),
-        _ => (true, WEIGHT_OF_ENDS),
+    let at_ends = |requirement: &Requirement| match *requirement {
+        Requirement::Ends { input, .. } => Some(input),
+        _ => None,
     };
-    for requirement in requirements {
-        let &Requirement::Ends { input, .. } = requirement else { continue };
-        let whole = both_splits(dataset);
-        split.weights =
-            (0..split.rows()).map(|row| if weighs { split.weight(row) } else { 1.0 }).collect();
-        for row in rows_at_ends(&whole, dataset, input) {
-            for (to, from) in split.columns.iter_mut().zip(&whole.columns) {
-                to.push(from[row as usize]);
-            }
-            split.weights.push(weight_of_ends);
-            split.free.iter_mut().for_each(|free| free.push(0.0));
-        }
-        split.grid.clear();
+    let inputs: Vec<u16> = requirements.iter().filter_map(at_ends).collect();
+    if inputs.is_empty() {
+        return (split, measure);
     }
-    split
+    let weighs = matches!(measure, Measure::Weighted | Measure::Visible);
+    let weight = |row| if weighs { dataset.search.weight(row) } else { 1.0 };
+    split.weights = (0..split.rows()).map(weight).collect();
+    split.grid.clear();
+    let whole = both_splits(dataset);
+    let weight_of_ends = match measure {
+        Measure::Max => WEIGHT_OF_ENDS_BY_MAXIMUM,
+        _ => WEIGHT_OF_ENDS,
+    };
+    for row in inputs.into_iter().flat_map(|input| rows_at_ends(&whole, dataset, input)) {
+        for (to, from) in split.columns.iter_mut().zip(&whole.columns) {
+            to.push(from[row as usize]);
+        }
+        split.weights.push(weight_of_ends);
+        split.free.iter_mut().for_each(|free| free.push(0.0));
+    }
+    // The ends count by weight.
+    let visible = measure == Measure::Visible;
+    (split, if visible { measure } else { Measure::Weighted })
 }
 
 fn rows_at_ends(split: &Split, dataset: &Dataset, input: u16) -> Vec<u32> {

@@ -7,6 +7,7 @@ use crate::cost::Profile;
 use crate::dataset::Dataset;
 use crate::emit::{self, Language, Snippet};
 use crate::eval::OutputError;
+use crate::fit::Measure;
 use crate::report::page::{self, Axis, Code, Formula, Page, PageFront, PageSpheres, Table, Trace};
 use crate::report::table::Published;
 use crate::search::{Front, FrontMember, RecordError, Run};
@@ -29,7 +30,10 @@ pub(super) fn page(gathered: &Gathered, folder: &Path) -> Result<(Page, Option<T
         outputs: run.outputs.clone(),
         profiles: profiles.iter().map(cycles).chain(timings.iter().map(nanoseconds)).collect(),
         profile: own,
-        fronts: vec![priced.front("rmse", front), priced.front("max", minimax)],
+        fronts: match front.measure {
+            Measure::Max => vec![priced.front(front)],
+            _ => vec![priced.front(front), priced.front(minimax)],
+        },
         published: published.iter().map(|known| priced.published(known)).collect(),
         lookup_tables: dataset
             .as_ref()
@@ -77,12 +81,12 @@ struct Priced<'a> {
 }
 
 impl Priced<'_> {
-    fn front(&self, measure: &'static str, front: &Front) -> PageFront {
+    fn front(&self, front: &Front) -> PageFront {
         let knee = front.knee().and_then(|knee| front.members.iter().position(|m| m == knee));
         PageFront {
-            measure,
-            title: if measure == "max" { "maximum error" } else { "RMSE" }.to_owned(),
-            option: if measure == "max" { "--minimax" } else { "" },
+            measure: if front.measure == Measure::Max { "max" } else { "rmse" },
+            title: if front.measure == Measure::Max { "maximum error" } else { "RMSE" }.to_owned(),
+            option: if front.measure == Measure::Max { "--minimax" } else { "" },
             members: front.members.iter().map(|member| self.member(member)).collect(),
             knee: knee.unwrap_or(0),
         }

@@ -42,3 +42,24 @@ impl Rates {
         })
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_pays_is_made_more_often_within_bounds() {
+        let mut rates = Rates::default();
+        assert_eq!(rates.weights(), MOVES.map(|(_, rate)| rate));
+        for _ in 0..10_000 {
+            rates.note(1, true);
+            rates.note(2, false);
+        }
+        let share = |rates: &Rates, kind: usize| rates.weights()[kind] / MOVES[kind].1;
+        assert!((share(&rates, 0) - MOST_FAVOURED).abs() < 1e-9);
+        assert!((share(&rates, 1) - 1.0 / MOST_FAVOURED).abs() < 1e-9);
+        assert!((share(&rates, 2) - 1.0).abs() < 1e-3);
+        (0..200).for_each(|_| rates.fade());
+        assert!((share(&rates, 0) - 1.0).abs() < 1e-3);
+    }
+}
