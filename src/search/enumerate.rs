@@ -7,7 +7,7 @@
 //! insertions.
 
 use super::vary::{insertions, random_constant};
-use super::{Problem, Search};
+use super::{Problem, Search, near_the_least};
 use crate::archive::Member;
 use crate::cost::CostScratch;
 use crate::fit::{Fitter, Measure, Rounds, Stop, minimax};
@@ -42,8 +42,8 @@ impl Enumeration {
 }
 
 impl Search {
-    /// Takes in all programs of at most `cost` cycles, as far as the budget goes, fitted; nothing where they differ in more than
-    /// `most` structures.
+    /// Takes in all programs of at most `cost` cycles, as far as the budget goes, fitted; nothing where
+    /// they differ in more than `most` structures.
     pub fn enumerate(&mut self, problem: &Problem, cost: f64, most: usize) {
         let cost = cost.min(self.settings.max_cost);
         let Some(structures) = structures(problem, cost, most) else { return };
@@ -68,14 +68,8 @@ fn best_of(structures: &[Draft], problem: &Problem) -> Vec<Member> {
         .par_iter()
         .map_init(Fitter::default, |fitter, draft| fitted(fitter, draft, problem))
         .collect();
-    let mut near: Vec<Member> = fitted.into_iter().flatten().collect();
-    near.sort_by(|a, b| a.cost.total_cmp(&b.cost).then(a.loss.total_cmp(&b.loss)));
-    let mut least = f64::INFINITY;
-    near.retain(|member| {
-        let kept = member.loss < least * NEAR;
-        least = least.min(member.loss);
-        kept
-    });
+    let fitted: Vec<Member> = fitted.into_iter().flatten().collect();
+    let near = near_the_least(fitted, NEAR, |member| (member.cost, member.loss));
     let finish = |fitter: &mut Fitter, mut member: Member| {
         member.loss = fitter.fit(&mut member.draft, &problem.all, ON_ALL) * problem.scale();
         if problem.measure == Measure::Max {

@@ -196,6 +196,26 @@ fn edge_rows(split: &Split, inputs: usize) -> Vec<u32> {
     (0..split.rows() as u32).filter(at_an_end).collect()
 }
 
+/// By rising cost, those whose error is less than `within` times that of every cheaper one.
+fn near_the_least<T>(
+    mut all: Vec<T>,
+    within: f64,
+    cost_and_error: impl Fn(&T) -> (f64, f64),
+) -> Vec<T> {
+    let order = |(cost, error): (f64, f64), (other_cost, other_error): (f64, f64)| {
+        cost.total_cmp(&other_cost).then(error.total_cmp(&other_error))
+    };
+    all.sort_by(|a, b| order(cost_and_error(a), cost_and_error(b)));
+    let mut least = f64::INFINITY;
+    all.retain(|one| {
+        let (_, error) = cost_and_error(one);
+        let near = error < least * within;
+        least = least.min(error);
+        near
+    });
+    all
+}
+
 /// In mean square, how much worse than the archive's a contender may be.
 const CONTENDING: f64 = 4.0;
 
@@ -208,7 +228,7 @@ const CONTENDING_BY_MEAN: f64 = 0.3;
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Counts {
     pub considered: u64,
-    /// More instructions than the grammar allows.
+    /// More instructions than the grammar allows, or constants that are not finite.
     pub too_long: u64,
     /// Out of the cost budget.
     pub too_dear: u64,

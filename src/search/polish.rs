@@ -1,7 +1,7 @@
 //! What is done to a formula before it is shown.
 
-use super::Problem;
 use super::front::FrontMember;
+use super::{Problem, near_the_least};
 use crate::cost::CostScratch;
 use crate::dataset::Column;
 use crate::eval::{Arithmetic, Bounds, Samples};
@@ -46,8 +46,8 @@ pub(super) fn polish(
     })
 }
 
-/// The formula without what is superfluous, or as it is where rounding makes the simpler one worse;
-/// nothing where neither is as required.
+/// The formula without what is superfluous and with guards, or as it is where that makes it worse or
+/// dearer; nothing where none is as required.
 fn finished(
     draft: &Draft,
     problem: &Problem,
@@ -86,8 +86,8 @@ fn reads_only_constants(program: &Program) -> bool {
 }
 
 /// The formula with the absolute value of what roots, logarithms and powers are taken of: between
-/// samples, too, it is no NaN then, and the sign costs nothing on most GPUs. Nothing where there is none to take, or the
-/// grammar lacks the operation.
+/// samples, too, that is no NaN, and on most GPUs it is free. Nothing where there are none, or the grammar
+/// lacks the operation.
 fn guarded(draft: &Draft, problem: &Problem) -> Option<Draft> {
     if !problem.grammar.operations.iter().any(|(op, _)| *op == Op::Abs) {
         return None;
@@ -113,8 +113,8 @@ fn guarded(draft: &Draft, problem: &Problem) -> Option<Draft> {
 /// Of many drafts those that come near the least maximum error at their cost, by a quick look, and of
 /// those by a closer one.
 pub(super) fn promising(drafts: Vec<Draft>, problem: &Problem, samples: &Samples) -> Vec<Draft> {
-    let first = near_the_least(drafts, problem, samples, FIRST_LOOK, 1.4);
-    near_the_least(first, problem, samples, SECOND_LOOK, 1.1)
+    let first = looked_at(drafts, problem, samples, FIRST_LOOK, 1.4);
+    looked_at(first, problem, samples, SECOND_LOOK, 1.1)
 }
 
 const FIRST_LOOK: Rounds = Rounds {
@@ -125,15 +125,15 @@ const FIRST_LOOK: Rounds = Rounds {
 };
 const SECOND_LOOK: Rounds = Rounds { most: 0, linear_programs: 4, ..FIRST_LOOK };
 
-/// Those whose maximum error is less than `within` times that of every cheaper one.
-fn near_the_least(
+/// Those whose maximum error, made small, is less than `within` times that of every cheaper one.
+fn looked_at(
     drafts: Vec<Draft>,
     problem: &Problem,
     samples: &Samples,
     look: Rounds,
     within: f64,
 ) -> Vec<Draft> {
-    let mut tried: Vec<(f64, f64, Draft)> = drafts
+    let tried: Vec<(f64, f64, Draft)> = drafts
         .into_par_iter()
         .map_init(
             || (Fitter::default(), CostScratch::default()),
@@ -143,14 +143,8 @@ fn near_the_least(
             },
         )
         .collect();
-    tried.sort_by(|a, b| a.0.total_cmp(&b.0).then(a.1.total_cmp(&b.1)));
-    let mut least = f64::INFINITY;
-    tried.retain(|(_, error, _)| {
-        let near = *error < least * within;
-        least = least.min(*error);
-        near
-    });
-    tried.into_iter().map(|(_, _, draft)| draft).collect()
+    let near = near_the_least(tried, within, |(cost, error, _)| (*cost, *error));
+    near.into_iter().map(|(_, _, draft)| draft).collect()
 }
 
 /// What the simpler form may lose by rounding.

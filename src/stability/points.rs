@@ -7,9 +7,9 @@ pub fn points_in(domain: &[Interval]) -> Vec<Vec<f32>> {
     all(&axes(domain, 2048, 14))
 }
 
-/// Points of each side, three at least, whose product is `total` or fewer if that can be: half of them evenly spaced, the ends among
-/// them, half of them nearer and nearer to both ends, down to `2^-finest` of the width. Of a side
-/// that is a point, that point.
+/// Points of each side, three at least, whose product is `total` or fewer if that can be: half of
+/// them evenly spaced, the ends among them, half of them nearer and nearer to both ends, down to
+/// `2^-finest` of the width. Of a side that is a point, that point.
 pub(super) fn axes(domain: &[Interval], total: usize, finest: u32) -> Vec<Vec<f32>> {
     let sides = domain.iter().filter(|side| side.low() < side.high()).count().max(1);
     let count = (total as f64).powf(1.0 / sides as f64).floor().clamp(3.0, 257.0) as usize;

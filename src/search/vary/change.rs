@@ -108,7 +108,7 @@ pub(super) fn grow(rng: &mut ChaCha8Rng, draft: &mut Draft) {
     *edge_mut(draft, edge) = Arg::Result((at + count - 1) as u16);
 }
 
-/// What [`Move::Grow`] begins with.
+/// What growth begins with.
 const SMALL: f32 = 1.0 / 256.0;
 
 pub(super) fn delete(rng: &mut ChaCha8Rng, draft: &mut Draft) {

@@ -56,7 +56,7 @@ pub(super) fn random_arg(rng: &mut ChaCha8Rng, draft: &mut Draft, earlier: usize
     }
 }
 
-/// An input, or an earlier result where there is no input.
+/// An input, or now and then an earlier result.
 pub(super) fn random_value(rng: &mut ChaCha8Rng, draft: &Draft, earlier: usize) -> Arg {
     let values = draft.inputs + earlier / 3;
     match rng.random_range(0..values.max(1)) {

@@ -30,7 +30,7 @@ const MOVES: [(Move, f64); 9] = [
     (Move::Delete, 12.0),
     (Move::Graft, 12.0),
     (Move::TakeOutput, 6.0),
-    (Move::ConstantToValue, 6.0),
+    (Move::ExchangeConstant, 6.0),
 ];
 
 #[derive(Clone, Copy)]
@@ -53,7 +53,7 @@ enum Move {
     /// An output as the donor has it.
     TakeOutput,
     /// An input or result where a constant was, or the other way round.
-    ConstantToValue,
+    ExchangeConstant,
 }
 
 /// Makes children of drafts; owns the memory that it needs.
@@ -115,7 +115,7 @@ impl Variation {
             Move::Delete => delete(rng, child),
             Move::Graft => self.graft(rng, child, donor),
             Move::TakeOutput => self.take_output(rng, child, donor),
-            Move::ConstantToValue => exchange_constant(rng, child),
+            Move::ExchangeConstant => exchange_constant(rng, child),
         }
     }
 
