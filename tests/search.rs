@@ -16,6 +16,23 @@ fn dataset(name: &str, outputs: &[&str]) -> Dataset {
     Dataset::load(path.as_ref()).unwrap().select(None, Some(&outputs)).unwrap()
 }
 
+/// A function of `x` on [0, `end`], the same samples in both splits.
+fn function(name: &str, end: f64, samples: u32, f: fn(f32) -> f32) -> Dataset {
+    let at = |i: u32| end as f32 * (i as f32 / (samples - 1) as f32);
+    let xs: Vec<f32> = (0..samples).map(at).collect();
+    let ys = xs.iter().map(|&x| f(x)).collect();
+    let column = |name: &str| Column { name: name.into(), unit: "1".into(), domain: [0.0, end] };
+    let split = Split { columns: vec![xs, ys], ..Split::default() };
+    Dataset {
+        name: name.into(),
+        recipe: name.into(),
+        inputs: vec![column("x")],
+        outputs: vec![column("y")],
+        search: split.clone(),
+        validation: split,
+    }
+}
+
 fn search(data: &Dataset, grammar: &str, generations: u64, settings: Settings) -> Front {
     let grammar = Grammar::find(grammar).unwrap();
     let profile = Profile::find("gcn").unwrap();
@@ -146,18 +163,7 @@ fn the_front_for_the_maximum_error_heeds_no_weights() {
 /// Between samples, too, a root is of no negative number.
 #[test]
 fn roots_are_guarded_where_that_is_free() {
-    let xs: Vec<f32> = (0..64).map(|i| i as f32 / 63.0).collect();
-    let column = |name: &str| Column { name: name.into(), unit: "1".into(), domain: [0.0, 1.0] };
-    let ys = xs.iter().map(|x| x.acos()).collect();
-    let split = Split { columns: vec![xs, ys], ..Split::default() };
-    let data = Dataset {
-        name: "acos".into(),
-        recipe: "acos".into(),
-        inputs: vec![column("x")],
-        outputs: vec![column("y")],
-        search: split.clone(),
-        validation: split,
-    };
+    let data = function("acos", 1.0, 64, f32::acos);
     let root = "y = sqrt(x*(x*(x*(0.077*x - 0.351) + 0.9396) - 3.1326) + 2.4671)";
     let root = parse(root, &data.names()).unwrap();
     let grammar = Grammar::find("shader").unwrap();
@@ -309,18 +315,7 @@ fn what_is_required_is_refuted_nowhere_in_the_domain() {
 fn ends_are_met() {
     // No f32 is 1.6.
     let end = 1.6f32;
-    let xs: Vec<f32> = (0..=200).map(|i| end * (i as f32 / 200.0)).collect();
-    let column = |name: &str| Column { name: name.into(), unit: "1".into(), domain: [0.0, 1.6] };
-    let ys = xs.iter().map(|x| x.powf(2.2)).collect();
-    let split = Split { columns: vec![xs, ys], ..Split::default() };
-    let data = Dataset {
-        name: "gamma".into(),
-        recipe: "x^2.2 up to 1.6".into(),
-        inputs: vec![column("x")],
-        outputs: vec![column("y")],
-        search: split.clone(),
-        validation: split,
-    };
+    let data = function("gamma", 1.6, 201, |x| x.powf(2.2));
     for measure in [Measure::Rmse, Measure::Max] {
         let requirements = vec![Requirement::parse("ends=x", &data.names()).unwrap(); 2];
         let settings = Settings { max_cost: 8.0, requirements, measure, ..Settings::default() };
