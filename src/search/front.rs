@@ -7,7 +7,7 @@ use crate::dataset::Dataset;
 use crate::eval::{Evaluator, OutputError, Score, joint};
 use crate::fit::Measure;
 use crate::program::{Draft, Names, Program, parse, print};
-use crate::stability::{Questions, Verdict, VerdictRecord};
+use crate::stability::{Limits, Questions, Rounding, Stopped, Verdict, VerdictRecord};
 use rayon::prelude::*;
 
 /// A formula of the front.
@@ -79,6 +79,9 @@ pub struct Front {
     pub members: Vec<FrontMember>,
 }
 
+/// Boxes for each proof of a member at first: enough for most.
+const FEW_BOXES: usize = 1000;
+
 impl Front {
     /// The archive's members, polished for what the search makes small: constants fitted to
     /// convergence on all of the search split and shortened; then scored, those not finite
@@ -110,7 +113,29 @@ impl Front {
 
     /// Judges the members that are not judged.
     pub fn judge(&mut self, questions: &Questions, names: &Names) {
-        self.members.par_iter_mut().for_each(|member| member.judge(questions, names));
+        self.judge_until(questions, names, &|| false);
+    }
+
+    /// [`Front::judge`] until it is told to stop: first all members with little work each, then those
+    /// that this leaves open. What is undecided in the end is open, and a member that nobody came to
+    /// is not judged.
+    pub fn judge_until(&mut self, questions: &Questions, names: &Names, stopped: Stopped) {
+        let mut left: Vec<&mut FrontMember> =
+            self.members.iter_mut().filter(|member| !member.verdict.is_judged()).collect();
+        for boxes in [FEW_BOXES, Limits::new(Rounding::Exact).boxes] {
+            let open = left.into_par_iter().filter_map(|member| {
+                if stopped() {
+                    return None;
+                }
+                let verdict = Verdict::within(&member.program, questions, boxes, stopped);
+                // What was cut short may know less than the round before it.
+                if boxes == FEW_BOXES || !stopped() {
+                    member.verdict = VerdictRecord::new(&verdict, names);
+                }
+                (!verdict.is_decided()).then_some(member)
+            });
+            left = open.collect();
+        }
     }
 
     /// Keeps the members that are not dominated.

@@ -1,6 +1,6 @@
 //! Functions of one argument as straight lines with an error, on an interval.
 
-use super::form::Form;
+use super::form::{Form, Terms};
 use crate::eval::{Arithmetic, Bounds};
 use crate::num::Interval;
 use crate::op::Op;
@@ -16,7 +16,7 @@ struct Curve<'a> {
 }
 
 /// `f(x)` for x of the form within the bounds; nothing where no line is known that comes near.
-pub(super) fn image(op: Op, x: &Form, bounds: Interval) -> Option<Form> {
+pub(super) fn image(op: Op, x: &Form, bounds: Interval, terms: &mut Terms) -> Option<Form> {
     let (low, high) = (f64::from(bounds.low()), f64::from(bounds.high()));
     match op {
         Op::Rcp if low > 0.0 || high < 0.0 => {
@@ -27,7 +27,7 @@ pub(super) fn image(op: Op, x: &Form, bounds: Interval) -> Option<Form> {
                 where_slope: &|p| sign * (-1.0 / p).sqrt(),
                 convex: sign > 0.0,
             };
-            curve.image(x, low, high)
+            curve.image(x, low, high, terms)
         }
         Op::Sqrt => {
             let curve = Curve {
@@ -36,7 +36,7 @@ pub(super) fn image(op: Op, x: &Form, bounds: Interval) -> Option<Form> {
                 where_slope: &|p| 0.25 / (p * p),
                 convex: false,
             };
-            curve.image(x, low.max(0.0), high)
+            curve.image(x, low.max(0.0), high, terms)
         }
         Op::Exp2 => {
             let curve = Curve {
@@ -45,12 +45,12 @@ pub(super) fn image(op: Op, x: &Form, bounds: Interval) -> Option<Form> {
                 where_slope: &|p| (p * LOG2_E).log2(),
                 convex: true,
             };
-            curve.image(x, low, high)
+            curve.image(x, low, high, terms)
         }
         Op::Exp => {
             let curve =
                 Curve { value: &f64::exp, slope: &f64::exp, where_slope: &f64::ln, convex: true };
-            curve.image(x, low, high)
+            curve.image(x, low, high, terms)
         }
         Op::Log2 if low > 0.0 => {
             let curve = Curve {
@@ -59,7 +59,7 @@ pub(super) fn image(op: Op, x: &Form, bounds: Interval) -> Option<Form> {
                 where_slope: &|p| LOG2_E / p,
                 convex: false,
             };
-            curve.image(x, low, high)
+            curve.image(x, low, high, terms)
         }
         Op::Log if low > 0.0 => {
             let curve = Curve {
@@ -68,38 +68,39 @@ pub(super) fn image(op: Op, x: &Form, bounds: Interval) -> Option<Form> {
                 where_slope: &|p| 1.0 / p,
                 convex: false,
             };
-            curve.image(x, low, high)
+            curve.image(x, low, high, terms)
         }
         Op::Sin | Op::Cos | Op::Tan | Op::Asin | Op::Acos | Op::Atan | Op::Tanh => {
-            by_derivative(op, x, bounds)
+            by_derivative(op, x, bounds, terms)
         }
         _ => None,
     }
 }
 
 /// `x²`.
-pub(super) fn square(x: &Form, bounds: Interval) -> Form {
+pub(super) fn square(x: &Form, bounds: Interval, terms: &mut Terms) -> Form {
     let (low, high) = (f64::from(bounds.low()), f64::from(bounds.high()));
     let middle = low / 2.0 + high / 2.0;
     let magnitude = low.abs().max(high.abs()).powi(2);
-    x.mapped(low + high, -middle * middle, -low * high, magnitude)
+    x.mapped(low + high, [-middle * middle, -low * high], magnitude, terms)
 }
 
 /// `|x|`.
-pub(super) fn absolute(x: &Form, bounds: Interval) -> Form {
+pub(super) fn absolute(x: &Form, bounds: Interval, terms: &mut Terms) -> Form {
     let (low, high) = (f64::from(bounds.low()), f64::from(bounds.high()));
     if low >= 0.0 {
         return *x;
     }
     if high <= 0.0 {
-        return x.negated();
+        return x.negated(terms);
     }
     let chord = (high + low) / (high - low);
-    x.mapped(chord, 0.0, -low * (1.0 + chord), high - low)
+    x.mapped(chord, [0.0, -low * (1.0 + chord)], high - low, terms)
 }
 
-/// The larger, given bounds of a − b.
-pub(super) fn maximum(a: &Form, b: &Form, difference: Interval) -> Form {
+/// The larger.
+pub(super) fn maximum(a: &Form, b: &Form, terms: &mut Terms) -> Form {
+    let difference = a.minus(b, terms).bounds();
     let (low, high) = (f64::from(difference.low()), f64::from(difference.high()));
     if low >= 0.0 {
         return *a;
@@ -109,12 +110,19 @@ pub(super) fn maximum(a: &Form, b: &Form, difference: Interval) -> Form {
     }
     // b + max(a − b, 0), whose chord is above it, most at the kink.
     let chord = high / (high - low);
-    a.mapped(chord, 0.0, -chord * low, high - low).plus(&b.mapped(1.0 - chord, 0.0, 0.0, 0.0))
+    let rest = b.mapped(1.0 - chord, [0.0; 2], 0.0, terms);
+    a.mapped(chord, [0.0, -chord * low], high - low, terms).plus(&rest, terms)
+}
+
+/// The smaller.
+pub(super) fn minimum(a: &Form, b: &Form, terms: &mut Terms) -> Form {
+    let [a, b] = [a, b].map(|form| form.negated(terms));
+    maximum(&a, &b, terms).negated(terms)
 }
 
 impl Curve<'_> {
     /// The line of least error: parallel to the chord, halfway to the tangent.
-    fn image(&self, x: &Form, low: f64, high: f64) -> Option<Form> {
+    fn image(&self, x: &Form, low: f64, high: f64, terms: &mut Terms) -> Option<Form> {
         let (first, last) = ((self.value)(low), (self.value)(high));
         let chord = match high - low {
             width if width > 1e-30 => (last - first) / width,
@@ -141,12 +149,12 @@ impl Curve<'_> {
         };
         let reach = low.abs().max(high.abs());
         let magnitude = first.abs().max(last.abs()) + (chord.abs() + slope.abs()) * reach;
-        Some(x.mapped(chord, below.min(above), above.max(below), magnitude))
+        Some(x.mapped(chord, [below.min(above), above.max(below)], magnitude, terms))
     }
 }
 
 /// The line through the middle whose slope is the middle of the derivative's bounds.
-fn by_derivative(op: Op, x: &Form, bounds: Interval) -> Option<Form> {
+fn by_derivative(op: Op, x: &Form, bounds: Interval, terms: &mut Terms) -> Option<Form> {
     let of = |op: Op, x: Interval| Bounds.apply(op, [x; 4]);
     let one = Interval::new(1.0, 1.0);
     let square = |x: Interval| of(Op::Abs, x).times(of(Op::Abs, x));
@@ -176,5 +184,5 @@ fn by_derivative(op: Op, x: &Form, bounds: Interval) -> Option<Form> {
     let error = line.radius() * (high / 2.0 - low / 2.0);
     let offset = value - slope * middle;
     let magnitude = value.abs() + slope.abs() * middle.abs() + error;
-    Some(x.mapped(slope, offset - error, offset + error, magnitude))
+    Some(x.mapped(slope, [offset - error, offset + error], magnitude, terms))
 }

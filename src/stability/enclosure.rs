@@ -1,7 +1,7 @@
 //! Programs on boxes: every value that each instruction can give there.
 
 use super::chord;
-use super::form::Form;
+use super::form::{Form, Terms};
 use super::rounding::{HUGE, Rounding, flushed};
 use crate::eval::{Arithmetic, Bounds};
 use crate::num::Interval;
@@ -23,11 +23,12 @@ pub struct Enclosure {
     rounding: Rounding,
     inputs: Vec<Enclosed>,
     results: Vec<Enclosed>,
+    terms: Terms,
 }
 
 impl Enclosure {
     pub fn new(rounding: Rounding) -> Enclosure {
-        Enclosure { rounding, inputs: Vec::new(), results: Vec::new() }
+        Enclosure { rounding, inputs: Vec::new(), results: Vec::new(), terms: Terms::default() }
     }
 
     /// Encloses every instruction of a program where each input is any number of its interval.
@@ -38,16 +39,19 @@ impl Enclosure {
         assert_eq!(domain.len(), program.inputs, "one interval for each input");
         self.inputs.clear();
         self.results.clear();
-        for (i, &bounds) in domain.iter().enumerate() {
+        self.terms.clear();
+        for &bounds in domain {
             let bounds = self.stored(bounds);
-            self.inputs.push(Enclosed { bounds, form: Form::input(i, bounds) });
+            let form = Form::input(bounds, &mut self.terms);
+            self.inputs.push(Enclosed { bounds, form });
         }
-        for (i, instr) in program.instrs.iter().enumerate() {
+        for instr in &program.instrs {
             let args = instr.args();
             let values = [0, 1, 2, 3].map(|k| self.value(program, args[k.min(args.len() - 1)]));
             let square = args.len() > 1 && args[0] == args[1];
-            let mut result = apply(self.rounding, instr.op(), values.each_ref(), square);
-            result.form = result.form.map(|form| form.of_instruction(i));
+            let mut step = Step { rounding: self.rounding, terms: &mut self.terms };
+            let mut result = step.apply(instr.op(), values, square);
+            result.form = result.form.map(|form| form.of_instruction(&mut self.terms));
             self.results.push(result);
         }
     }
@@ -67,7 +71,8 @@ impl Enclosure {
 
     /// How far an argument or output varies with an input, where that is known.
     pub(super) fn slope(&self, program: &Program, arg: Arg, input: usize) -> f64 {
-        self.value(program, arg).form.map_or(0.0, |form| form.slope(input))
+        let [form, input] = [self.value(program, arg), self.inputs[input]].map(|value| value.form);
+        form.zip(input).map_or(0.0, |(form, input)| form.slope(&input, &self.terms))
     }
 
     fn value(&self, program: &Program, arg: Arg) -> Enclosed {
@@ -104,45 +109,133 @@ impl Enclosed {
     }
 }
 
-/// What an operation gives; `square` where its first two arguments are one.
-fn apply(rounding: Rounding, op: Op, arguments: [&Enclosed; MAX_ARITY], square: bool) -> Enclosed {
-    let [a, b, c, d] = arguments;
-    let step = |op: Op, arguments: &[&Enclosed]| {
+/// One operation on a box.
+struct Step<'a> {
+    rounding: Rounding,
+    terms: &'a mut Terms,
+}
+
+impl Step<'_> {
+    /// What an operation gives; `square` where its first two arguments are one.
+    fn apply(&mut self, op: Op, arguments: [Enclosed; MAX_ARITY], square: bool) -> Enclosed {
+        let [a, b, c, d] = arguments;
+        match op {
+            Op::Pow => {
+                let exponent = self.of(Op::Log2, &[a]);
+                let exponent = self.of(Op::Mul, &[b, exponent]);
+                self.of(Op::Exp2, &[exponent])
+            }
+            Op::Mad if self.rounding == Rounding::Gpu => {
+                let product = self.apply(Op::Mul, arguments, square);
+                self.of(Op::Add, &[product, c])
+            }
+            Op::Tan if self.rounding == Rounding::Gpu => {
+                let [sin, cos] = [Op::Sin, Op::Cos].map(|op| self.of(op, &[a]));
+                self.of(Op::Div, &[sin, cos])
+            }
+            Op::Lerp => self.lerp([a, b, c]),
+            Op::Select => self.select([a, b], c, d),
+            _ => {
+                let bounds = bounds(self.rounding, op, &arguments, square);
+                let form = self.form(op, &arguments, square).map(|form| {
+                    let reach = f64::from(bounds.narrowed(form.bounds()).abs().high());
+                    let error = self.rounding.error(op, arguments.map(|argument| argument.bounds));
+                    // The value before rounding may reach a little further.
+                    form.widened(error.of(reach + error.of(reach)))
+                });
+                let form = form.filter(|_| describes(self.rounding, op, a.bounds, b.bounds));
+                Enclosed::new(self.rounding, bounds, form)
+            }
+        }
+    }
+
+    fn of(&mut self, op: Op, arguments: &[Enclosed]) -> Enclosed {
         let mut all = [arguments[0]; MAX_ARITY];
         all[..arguments.len()].copy_from_slice(arguments);
-        apply(rounding, op, all, false)
-    };
-    match op {
-        Op::Pow => step(Op::Exp2, &[&step(Op::Mul, &[b, &step(Op::Log2, &[a])])]),
-        Op::Mad if rounding == Rounding::Gpu => {
-            step(Op::Add, &[&apply(rounding, Op::Mul, arguments, square), c])
+        self.apply(op, all, false)
+    }
+
+    fn lerp(&mut self, [a, b, t]: [Enclosed; 3]) -> Enclosed {
+        let difference = self.of(Op::Sub, &[b, a]);
+        let fused = self.of(Op::Mad, &[t, difference, a]);
+        if self.rounding == Rounding::Exact {
+            return fused;
         }
-        Op::Tan if rounding == Rounding::Gpu => {
-            step(Op::Div, &[&step(Op::Sin, &[a]), &step(Op::Cos, &[a])])
-        }
-        Op::Lerp => {
-            let fused = step(Op::Mad, &[c, &step(Op::Sub, &[b, a]), a]);
-            if rounding == Rounding::Exact {
-                return fused;
+        let one = Interval::new(1.0, 1.0);
+        let one = Enclosed { bounds: one, form: Form::around(one) };
+        let rest = self.of(Op::Sub, &[one, t]);
+        let (first, second) = (self.of(Op::Mul, &[a, rest]), self.of(Op::Mul, &[b, t]));
+        let sum = self.of(Op::Add, &[first, second]);
+        self.hull(&fused, &sum)
+    }
+
+    /// The operation without its rounding, as an affine form.
+    fn form(&mut self, op: Op, arguments: &[Enclosed; MAX_ARITY], square: bool) -> Option<Form> {
+        let x = arguments[0].bounds;
+        let [a, b, c, _] = arguments.each_ref().map(|argument| argument.form.as_ref());
+        let terms = &mut *self.terms;
+        let product = |terms: &mut Terms| match square {
+            true => Some(chord::square(a?, x, terms)),
+            false => Some(a?.times(b?, terms)),
+        };
+        match op {
+            Op::Add => Some(a?.plus(b?, terms)),
+            Op::Sub => Some(a?.minus(b?, terms)),
+            Op::Neg => Some(a?.negated(terms)),
+            Op::Mul => product(terms),
+            Op::Mad => Some(product(terms)?.plus(c?, terms)),
+            Op::Div => {
+                let reciprocal = chord::image(Op::Rcp, b?, arguments[1].bounds, terms)?;
+                Some(a?.times(&reciprocal, terms))
             }
-            let one = Interval::new(1.0, 1.0);
-            let one = Enclosed { bounds: one, form: Form::around(one) };
-            let rest = step(Op::Sub, &[&one, c]);
-            let sum = step(Op::Add, &[&step(Op::Mul, &[a, &rest]), &step(Op::Mul, &[b, c])]);
-            hull(rounding, &fused, &sum)
+            Op::Rsqrt => {
+                let root = chord::image(Op::Sqrt, a?, x, terms)?;
+                let bounds = Bounds.apply(Op::Sqrt, [x; MAX_ARITY]).widened(1);
+                chord::image(Op::Rcp, &root, bounds, terms)
+            }
+            Op::Abs => Some(chord::absolute(a?, x, terms)),
+            Op::Max => Some(chord::maximum(a?, b?, terms)),
+            Op::Min => Some(chord::minimum(a?, b?, terms)),
+            Op::Saturate => {
+                let [zero, one] = [0.0, 1.0].map(|x| Form::around(Interval::new(x, x)));
+                let positive = chord::maximum(a?, zero.as_ref()?, terms);
+                Some(chord::minimum(&positive, one.as_ref()?, terms))
+            }
+            Op::Floor | Op::Fract if x.low().floor() == x.high().floor() => {
+                let whole = f64::from(x.low().floor());
+                match op {
+                    Op::Floor => Some(a?.mapped(0.0, [whole; 2], 0.0, terms)),
+                    _ => Some(a?.mapped(1.0, [-whole; 2], whole.abs(), terms)),
+                }
+            }
+            _ => chord::image(op, a?, x, terms),
         }
-        Op::Select => select(rounding, [a, b], c, d),
-        _ => {
-            let bounds = bounds(rounding, op, arguments, square);
-            let form = form(op, arguments, square).map(|form| {
-                let reach = f64::from(bounds.narrowed(form.bounds()).abs().high());
-                let error = rounding.error(op, arguments.map(|argument| argument.bounds));
-                // The value before rounding may reach a little further.
-                form.widened(error.of(reach + error.of(reach)))
-            });
-            let form = form.filter(|_| describes(rounding, op, a.bounds, b.bounds));
-            Enclosed::new(rounding, bounds, form)
+    }
+
+    /// `yes` where a < b, else `no`.
+    fn select(&mut self, [a, b]: [Enclosed; 2], yes: Enclosed, no: Enclosed) -> Enclosed {
+        let nan = a.bounds.may_be_nan() || b.bounds.may_be_nan();
+        let difference = match (&a.form, &b.form) {
+            (Some(a), Some(b)) => a.minus(b, self.terms).bounds(),
+            _ => Interval::LINE,
+        };
+        let numbers = !a.bounds.is_empty() && !b.bounds.is_empty();
+        let may_hold = numbers && a.bounds.low() < b.bounds.high() && difference.low() < 0.0;
+        let may_fail = nan || a.bounds.high() >= b.bounds.low() && difference.high() >= 0.0;
+        match (may_hold, may_fail) {
+            (true, false) => yes,
+            (false, _) => no,
+            (true, true) => self.hull(&yes, &no),
         }
+    }
+
+    fn hull(&mut self, a: &Enclosed, b: &Enclosed) -> Enclosed {
+        let form = match (&a.form, &b.form) {
+            // Of a jump, two readers may see different sides.
+            (Some(first), Some(second)) => Some(first.hull(second, self.terms).unshared()),
+            _ => None,
+        };
+        Enclosed::new(self.rounding, a.bounds.hull(b.bounds), form)
     }
 }
 
@@ -160,7 +253,7 @@ fn describes(rounding: Rounding, op: Op, a: Interval, b: Interval) -> bool {
     }
 }
 
-fn bounds(rounding: Rounding, op: Op, arguments: [&Enclosed; MAX_ARITY], square: bool) -> Interval {
+fn bounds(rounding: Rounding, op: Op, arguments: &[Enclosed; MAX_ARITY], square: bool) -> Interval {
     let [a, b, c, d] = arguments.map(|argument| argument.bounds);
     // Of two equal signs, a product is that of the absolute values.
     let (a, b) = match op {
@@ -168,70 +261,4 @@ fn bounds(rounding: Rounding, op: Op, arguments: [&Enclosed; MAX_ARITY], square:
         _ => (a, b),
     };
     rounding.bounds(op, [a, b, c, d])
-}
-
-/// The operation without its rounding, as an affine form.
-fn form(op: Op, arguments: [&Enclosed; MAX_ARITY], square: bool) -> Option<Form> {
-    let x = arguments[0].bounds;
-    let [a, b, c, _] = arguments.map(|argument| argument.form.as_ref());
-    let product = || match square {
-        true => Some(chord::square(a?, x)),
-        false => Some(a?.times(b?)),
-    };
-    let larger = |a: &Form, b: &Form| chord::maximum(a, b, a.minus(b).bounds());
-    let smaller = |a: &Form, b: &Form| larger(&a.negated(), &b.negated()).negated();
-    match op {
-        Op::Add => Some(a?.plus(b?)),
-        Op::Sub => Some(a?.minus(b?)),
-        Op::Neg => Some(a?.negated()),
-        Op::Mul => product(),
-        Op::Mad => Some(product()?.plus(c?)),
-        Op::Div => Some(a?.times(&chord::image(Op::Rcp, b?, arguments[1].bounds)?)),
-        Op::Rsqrt => {
-            let root = chord::image(Op::Sqrt, a?, x)?;
-            let bounds = Bounds.apply(Op::Sqrt, [x; MAX_ARITY]).widened(1);
-            chord::image(Op::Rcp, &root, bounds)
-        }
-        Op::Abs => Some(chord::absolute(a?, x)),
-        Op::Max => Some(larger(a?, b?)),
-        Op::Min => Some(smaller(a?, b?)),
-        Op::Saturate => {
-            let [zero, one] = [0.0, 1.0].map(|x| Form::around(Interval::new(x, x)));
-            Some(smaller(&larger(a?, zero.as_ref()?), one.as_ref()?))
-        }
-        Op::Floor | Op::Fract if x.low().floor() == x.high().floor() => {
-            let whole = f64::from(x.low().floor());
-            match op {
-                Op::Floor => Some(a?.mapped(0.0, whole, whole, 0.0)),
-                _ => Some(a?.mapped(1.0, -whole, -whole, whole.abs())),
-            }
-        }
-        _ => chord::image(op, a?, x),
-    }
-}
-
-/// `yes` where a < b, else `no`.
-fn select(rounding: Rounding, [a, b]: [&Enclosed; 2], yes: &Enclosed, no: &Enclosed) -> Enclosed {
-    let nan = a.bounds.may_be_nan() || b.bounds.may_be_nan();
-    let difference = match (&a.form, &b.form) {
-        (Some(a), Some(b)) => a.minus(b).bounds(),
-        _ => Interval::LINE,
-    };
-    let numbers = !a.bounds.is_empty() && !b.bounds.is_empty();
-    let may_hold = numbers && a.bounds.low() < b.bounds.high() && difference.low() < 0.0;
-    let may_fail = nan || a.bounds.high() >= b.bounds.low() && difference.high() >= 0.0;
-    match (may_hold, may_fail) {
-        (true, false) => *yes,
-        (false, _) => *no,
-        (true, true) => hull(rounding, yes, no),
-    }
-}
-
-fn hull(rounding: Rounding, a: &Enclosed, b: &Enclosed) -> Enclosed {
-    let form = match (&a.form, &b.form) {
-        // Of a jump, two readers may see different sides.
-        (Some(first), Some(second)) => Some(first.hull(second).unshared()),
-        _ => None,
-    };
-    Enclosed::new(rounding, a.bounds.hull(b.bounds), form)
 }

@@ -46,7 +46,7 @@ pub use extremes::{At, Extent, Place, extremes};
 pub use half::{half_error, must_stay_single};
 pub use points::points_in;
 pub use precision::{Loss, Precision};
-pub use prove::{Bound, Claim, Limits, Status, prove};
+pub use prove::{Bound, Claim, Limits, Status, Stopped, prove, prove_until};
 pub use record::{ClaimRecord, StatusRecord, Value, VerdictRecord};
 pub use rounding::Rounding;
 pub use smoothness::{Break, JUMP, Smoothness, Trend};

@@ -50,6 +50,9 @@ pub struct Limits {
     pub boxes: usize,
 }
 
+/// Asked between pieces of work of some microseconds, whether there is no more time for the rest.
+pub type Stopped<'a> = &'a (dyn Fn() -> bool + Sync);
+
 impl Limits {
     /// A slack of 1e-5: `exp2(0)` may be a few ulp above 1 on a GPU. As many boxes as take some tens
     /// of milliseconds.
@@ -128,6 +131,21 @@ pub fn prove(
     claims: &[Claim],
     limits: &Limits,
 ) -> Vec<Status> {
+    prove_until(program, domain, claims, limits, &|| false)
+}
+
+/// [`prove`] until it is told to stop, too: what is undecided then is left open. What is decided is the
+/// same as without.
+///
+/// # Panics
+/// As [`prove`] does.
+pub fn prove_until(
+    program: &Program,
+    domain: &[Interval],
+    claims: &[Claim],
+    limits: &Limits,
+    stopped: Stopped,
+) -> Vec<Status> {
     assert!(claims.len() <= 64, "at most 64 claims at a time");
     assert_eq!(domain.len(), program.inputs, "one interval for each input");
     let domain = &read_sides(program, domain);
@@ -137,10 +155,12 @@ pub fn prove(
     let mut left = (0..claims.len()).filter(|&i| refuted[i].is_none()).fold(0, |s, i| s | 1 << i);
     let mut parts =
         BinaryHeap::from([Part { domain: domain.to_vec(), volume: 1.0, undecided: left }]);
+    let mut going = true;
     for looked_at in 0.. {
         let Some(mut part) = parts.pop() else { break };
         part.undecided &= left;
-        if looked_at < limits.boxes && part.undecided != 0 {
+        going &= looked_at < limits.boxes && !stopped();
+        if going && part.undecided != 0 {
             enclosure.evaluate(program, &part.domain);
             for (i, claim) in marked(claims, part.undecided) {
                 let bounds = enclosure.bounds(program, program.outputs[claim.output]);
@@ -149,7 +169,7 @@ pub fn prove(
                 }
             }
         }
-        if looked_at < limits.boxes && part.undecided != 0 {
+        if going && part.undecided != 0 {
             let input: Vec<f32> = part.domain.iter().map(|&side| middle(side)).collect();
             let values = program.evaluate(&input);
             for (i, claim) in marked(claims, part.undecided) {

@@ -1,6 +1,6 @@
 //! What is asked of a formula as a rule, and what became of it.
 
-use super::{Bound, Claim, Limits, Rounding, Status, prove};
+use super::{Bound, Claim, Limits, Rounding, Status, Stopped, prove_until};
 use crate::dataset::Column;
 use crate::num::{Interval, enclose};
 use crate::op::Op;
@@ -100,18 +100,33 @@ impl Verdict {
     /// # Panics
     /// If the program has other numbers of inputs and outputs than the questions.
     pub fn of(program: &Program, questions: &Questions) -> Verdict {
+        let boxes = Limits::new(Rounding::Exact).boxes;
+        Verdict::within(program, questions, boxes, &|| false)
+    }
+
+    /// [`Verdict::of`], with no more than so many boxes for each proof, and until it is told to stop:
+    /// what is undecided then is open.
+    ///
+    /// # Panics
+    /// As [`Verdict::of`] does.
+    pub fn within(
+        program: &Program,
+        questions: &Questions,
+        boxes: usize,
+        stopped: Stopped,
+    ) -> Verdict {
         let program = with_sum(program, questions.energy);
         let claims = questions.claims();
         let topics: Vec<Topic> = claims.iter().map(|(topic, _)| *topic).collect();
         let decide = |rounding: Rounding, of_energy: bool, left: &[bool]| -> Vec<Option<Status>> {
             let margin = if of_energy { SUM_ROUNDING } else { 0.0 };
-            let limits = Limits { slack: questions.slack, margin, ..Limits::new(rounding) };
+            let limits = Limits { rounding, slack: questions.slack, margin, boxes };
             let wanted = |i: &usize| left[*i] && (topics[*i] == Topic::Energy) == of_energy;
             let places: Vec<usize> = (0..claims.len()).filter(wanted).collect();
             let mut decided = vec![None; claims.len()];
             for places in places.chunks(64) {
                 let some: Vec<Claim> = places.iter().map(|&i| claims[i].1).collect();
-                let found = prove(&program, &questions.domain, &some, &limits);
+                let found = prove_until(&program, &questions.domain, &some, &limits, stopped);
                 places.iter().zip(found).for_each(|(&i, status)| decided[i] = Some(status));
             }
             decided
@@ -130,6 +145,12 @@ impl Verdict {
             Finding { topic, claim, exact: Option::unwrap_or(exact, gpu.clone()), gpu }
         };
         Verdict { findings: claims.iter().zip(gpu).zip(exact).map(finding).collect() }
+    }
+
+    /// Whether nothing is left open.
+    pub fn is_decided(&self) -> bool {
+        let open = |status: &Status| matches!(status, Status::Open { .. });
+        !self.findings.iter().any(|finding| open(&finding.exact) || open(&finding.gpu))
     }
 
     /// Of one topic the finding that matters: refuted, else open, else proved; nothing where nothing
