@@ -90,3 +90,72 @@ fn what_cannot_be_understood_is_refused_with_advice() {
         assert_eq!(shown, "");
     }
 }
+
+/// The nearest numbers inside are the domain; what lies an ulp outside is told among the edges.
+#[test]
+fn what_is_refuted_is_refuted_within_the_domain_as_given() {
+    for (formula, domain) in [
+        ("y = sqrt(0.7 - x)", "x=0.1..0.7"),
+        ("y = log2(x - 0.09999999)", "x=0.1..0.7"),
+        ("y = sqrt(1.6 - x)", "x=0.3..1.6"),
+    ] {
+        let (code, shown, errors) = check(&[formula, "--domain", domain]);
+        assert_eq!(code, 0, "{formula}: {errors}");
+        let line = shown.lines().find(|line| line.starts_with("y finite")).unwrap();
+        assert!(line.contains("proved"), "{line}");
+    }
+    let (_, shown, _) = check(&["y = sqrt(0.7 - x)", "--domain", "x=0.1..0.7"]);
+    assert!(shown.contains("1 ulp or 1e-7 outside  y 0.7746 … 0.7746; NaN at x = 0.70000005"));
+    // What fails inside is refuted there, whatever the end.
+    for high in ["0.7", "0.3", "1.6", "0.99999999"] {
+        let domain = format!("x=0.1..{high}");
+        let (_, shown, _) = check(&["y = -x", "--domain", &domain, "--range", "0..1", "--json"]);
+        let all: Value = serde_json::from_str(&shown).unwrap();
+        let found = all["verdict"]["range"]["input"]["x"].as_f64().unwrap();
+        // JSON has the shortest text of an f32.
+        let found = f64::from(found as f32);
+        assert!((0.1..=high.parse().unwrap()).contains(&found), "{found} of {domain}");
+    }
+}
+
+#[test]
+fn waves_beyond_half_a_turn_are_open_on_gpus() {
+    let statuses = |formula: &str, domain: &str| {
+        let (_, shown, _) = check(&[formula, "--domain", domain, "--range=-1..1"]);
+        let lines = shown.lines().filter(|line| line.starts_with("y "));
+        lines
+            .map(|line| line.split_whitespace().skip(1).collect::<Vec<_>>().join(" "))
+            .collect::<Vec<_>>()
+    };
+    for formula in ["y = sin(2*x)", "y = cos(2*x)", "y = 0.1*tan(sin(2*x))"] {
+        let near = statuses(formula, "x=-1.5..1.5");
+        assert!(near[0].starts_with("finite proved proved"), "{near:?}");
+        let far = statuses(formula, "x=-2..2");
+        assert!(far[0].starts_with("finite proved open"), "{far:?}");
+    }
+}
+
+#[test]
+fn half_precision_is_bounded_by_what_was_tried() {
+    let beckmann = "g1 = saturate(a*(a*(1.3134*a - 3.4018) + 3.0365) + 0.0155)";
+    let run = |formula: &str, of: &[&str]| check(&[&[formula], of].concat()).1;
+    let shown = run(beckmann, &["datasets/beckmann_g1.bin", "--half", "2e-3"]);
+    assert!(!shown.contains("f16 throughout"), "{shown}");
+    assert!(shown.contains("at a = 1.0546875"), "{shown}");
+    let shown = run(beckmann, &["datasets/beckmann_g1.bin", "--half", "3e-3"]);
+    assert!(shown.contains("f16 throughout errs by 0.003 at most (all 15976 inputs"), "{shown}");
+    let shown = run("y = 0.5*b/max(b, 0.00001)", &["--domain", "b=0..1"]);
+    assert!(shown.contains("f16 no number") && !shown.contains("f16 throughout"), "{shown}");
+    let shown = run("y = a*b", &["--domain", "a=0..1,b=0..1"]);
+    assert!(shown.contains("no more than 0.01 at the worst of"), "{shown}");
+}
+
+#[test]
+fn a_sum_of_thirty_inputs_is_checked() {
+    let names: Vec<String> = (0..30).map(|i| format!("x{i}")).collect();
+    let domain: Vec<String> = names.iter().map(|name| format!("{name}=0..1")).collect();
+    let formula = format!("y = {}", names.join(" + "));
+    let (code, shown, errors) = check(&[&formula, "--domain", &domain.join(",")]);
+    assert_eq!(code, 0, "{errors}");
+    assert!(shown.lines().any(|line| line.starts_with("y finite  proved    proved")), "{shown}");
+}

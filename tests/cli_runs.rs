@@ -1,4 +1,4 @@
-//! `merge` and `analyze` on the real command line.
+//! `merge`, `analyze` and `emit --half` on the real command line.
 
 use assert_cmd::Command;
 use serde_json::Value;
@@ -176,4 +176,54 @@ fn what_recurs_is_shown_of_the_front_and_of_the_run() {
     let damaged = lgp(here, &["analyze", "run1"]);
     assert_eq!(damaged.status.code(), Some(3));
     assert!(text(&damaged.stderr).contains("census.json, line 1"), "{}", text(&damaged.stderr));
+}
+
+/// A run on 64 rows of a function of one input.
+fn searched_for(low: f32, high: f32, function: impl Fn(f32) -> f32) -> TempDir {
+    let folder = tempfile::tempdir().unwrap();
+    let row = |i: u8| {
+        let t = low + (high - low) * f32::from(i) / 63.0;
+        format!("{t},{}\n", function(t))
+    };
+    let rows: String = (0..64).map(row).collect();
+    std::fs::write(folder.path().join("d.csv"), format!("t,y\n{rows}")).unwrap();
+    succeed(folder.path(), &["import", "d.csv", "-o", "d.bin", "--inputs", "1", "--quiet"]);
+    let search = ["search", "d.bin", "--generations", "12", "--islands", "2", "--max-cost", "8"];
+    succeed(folder.path(), &[&search[..], &["--out", "run", "--quiet"]].concat());
+    folder
+}
+
+#[test]
+fn halves_that_cannot_hold_a_formula_are_refused_and_say_where() {
+    for folder in [
+        searched_for(0.0, 1.0, |t| 80_000.0 * t + 100_000.0),
+        searched_for(1000.0, 24_880.0, |t| 3000.0 * t * t),
+    ] {
+        let here = folder.path();
+        let knee = ["emit", "run", "--lang", "wgsl", "--max-error", "1e9"];
+        let most_accurate = ["emit", "run", "--lang", "wgsl", "--max-cost", "8"];
+        for which in [&knee[..], &most_accurate] {
+            for how in [&["--half"][..], &["--half-error", "1e-2"]] {
+                let output = lgp(here, &[which, how].concat());
+                let errors = text(&output.stderr);
+                assert_eq!(output.status.code(), Some(4), "{errors}");
+                assert_eq!(text(&output.stdout), "");
+                assert!(errors.contains("infinite as a half"), "{errors}");
+            }
+        }
+        assert!(succeed(here, &most_accurate).contains("f32"));
+    }
+}
+
+#[test]
+fn the_comment_of_halves_states_their_own_error() {
+    let folder = searched_for(0.0, 1.0, |t| 1.0 / (1.0 + 3.0 * t * t));
+    let shown =
+        succeed(folder.path(), &["emit", "run", "--lang", "wgsl", "--max-cost", "8", "--half"]);
+    let said = shown.lines().find_map(|line| line.split_once("adds an error of ")).unwrap().1;
+    let (error, tried) = said.split_once(" at most (all ").unwrap();
+    assert!(tried.starts_with("15362 inputs"), "{tried}");
+    let error: f64 = error.parse().unwrap();
+    assert!(error > 1e-5 && error < 0.05, "{error}");
+    assert!(shown.contains("verdicts above are those of single precision"));
 }

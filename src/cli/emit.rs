@@ -1,8 +1,12 @@
 use super::run_folder::{self, Which};
 use super::{Common, Exit, Failure, tiers};
 use crate::emit::Language;
+use crate::num::Interval;
+use crate::program::Names;
+use crate::report::examination::expression;
+use crate::report::verdict::number_text;
 use crate::search::{Front, FrontMember, Run};
-use crate::stability::{Questions, must_stay_single};
+use crate::stability::{Questions, Unheld, must_stay_single, unheld};
 use serde::Serialize;
 use std::path::PathBuf;
 
@@ -16,8 +20,8 @@ pub struct Args {
     /// hlsl, wgsl, glsl, msl, c, rust, python or latex
     #[arg(long, value_name = "L", value_parser = Language::from_name)]
     lang: Language,
-    /// In half precision throughout (hlsl, wgsl, glsl, msl); `lgp check` says what that costs in
-    /// accuracy
+    /// In half precision throughout (hlsl, wgsl, glsl, msl), unless a constant or value is one that no
+    /// half holds; the comment says what that costs in accuracy
     #[arg(long)]
     half: bool,
     /// In half precision, but for as few operations as must stay in single for halves to add an
@@ -54,18 +58,7 @@ pub fn run(args: &Args, common: &Common) -> Result<(), Failure> {
     let member = &member;
     let code = match (args.half, args.half_error) {
         (false, None) => run_folder::snippet(&run, member, args.lang),
-        (_, bound) => {
-            let stay_single = match bound {
-                Some(bound) => stay_single(&run, member, bound)?,
-                None => Vec::new(),
-            };
-            run_folder::half_snippet(&run, member, args.lang, &stay_single).ok_or_else(|| {
-                Failure::usage(format!(
-                    "--half: {} has no halves; hlsl, wgsl, glsl and msl do",
-                    args.lang
-                ))
-            })?
-        }
+        (_, bound) => half(args, &run, member, bound)?,
     };
     let emitted = Emitted {
         language: args.lang.name(),
@@ -77,16 +70,97 @@ pub fn run(args: &Args, common: &Common) -> Result<(), Failure> {
     common.result(&emitted, &code)
 }
 
-/// The operations that cannot be halves for that error.
-fn stay_single(run: &Run, member: &FrontMember, bound: f64) -> Result<Vec<usize>, Failure> {
+/// The member in halves: throughout, or but for what the bound asks for.
+fn half(
+    args: &Args,
+    run: &Run,
+    member: &FrontMember,
+    bound: Option<f64>,
+) -> Result<String, Failure> {
+    if !Language::SHADING.contains(&args.lang) {
+        let message = format!("--half: {} has no halves; hlsl, wgsl, glsl and msl do", args.lang);
+        return Err(Failure::usage(message));
+    }
     let domain = Questions::of(&run.inputs, &run.outputs).domain;
-    must_stay_single(&member.program, &domain, bound).ok_or_else(|| {
-        let message = format!(
-            "--half-error {bound}: even in single precision, with halves for arguments and outputs only, \
-             the error is larger; ask for more"
-        );
+    let stay_single = match bound {
+        Some(bound) => stay_single(run, member, &domain, bound)?,
+        None => Vec::new(),
+    };
+    if let Some(lost) = unheld(&member.program, &domain, &stay_single) {
+        let remedy = match bound {
+            Some(_) => "emit it without --half-error",
+            None => {
+                "--half-error E keeps such operations in single precision, where that is enough"
+            }
+        };
+        let message = format!("{}; {remedy}", unheld_text(&lost, member, &run.names()));
+        return Err(Failure::new(Exit::Unmet, anyhow::Error::msg(message)));
+    }
+    let code = run_folder::half_snippet(run, member, args.lang, &domain, &stay_single);
+    Ok(code.expect("shading languages have halves"))
+}
+
+/// The operations that cannot be halves for that error.
+fn stay_single(
+    run: &Run,
+    member: &FrontMember,
+    domain: &[Interval],
+    bound: f64,
+) -> Result<Vec<usize>, Failure> {
+    let program = &member.program;
+    must_stay_single(program, domain, bound).ok_or_else(|| {
+        let all: Vec<usize> = (0..program.instrs.len()).collect();
+        let message = match unheld(program, domain, &all) {
+            Some(lost) => {
+                let lost = unheld_text(&lost, member, &run.names());
+                format!("--half-error {bound}: {lost}; emit it without")
+            }
+            None => format!(
+                "--half-error {bound}: even in single precision, with halves for arguments and outputs only, \
+                 the error is larger; ask for more"
+            ),
+        };
         Failure::new(Exit::Unmet, anyhow::Error::msg(message))
     })
+}
+
+/// What no half holds, in words.
+fn unheld_text(lost: &Unheld, member: &FrontMember, names: &Names) -> String {
+    let operation = |i: usize| expression(&member.program, i, names);
+    let at = |input: &[f32]| {
+        let pairs = names.inputs.iter().zip(input);
+        pairs.map(|(name, x)| format!("{name} = {x:?}")).collect::<Vec<_>>().join(", ")
+    };
+    match lost {
+        Unheld::Constant { value, instruction } => {
+            let place = match instruction {
+                Some(i) => format!(" in {}", operation(*i)),
+                None => String::new(),
+            };
+            let becomes = if value.abs() > 1.0 { "is infinite" } else { "is 0" };
+            format!(
+                "the constant {value}{place} {becomes} as a half, which reaches from 6e-8 to 65504"
+            )
+        }
+        Unheld::Input { input, value } => {
+            format!(
+                "the input `{}` reaches {value}, which is infinite as a half",
+                names.inputs[*input]
+            )
+        }
+        Unheld::Result { instruction, value, input } => format!(
+            "{} is {} at {}, which is infinite as a half: 65504 is the largest",
+            operation(*instruction),
+            number_text(*value),
+            at(input)
+        ),
+        Unheld::Output { output, found, exact, input } => format!(
+            "in halves `{}` is {found} for {} at {}",
+            names.outputs[*output],
+            number_text(*exact),
+            at(input)
+        ),
+    }
 }
 
 fn pick<'a>(args: &Args, run: &Run, front: &'a Front) -> Result<&'a FrontMember, Failure> {

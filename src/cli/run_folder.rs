@@ -5,10 +5,13 @@ use crate::dataset::{Column, Dataset, replace_file};
 use crate::emit::{self, Language, Snippet};
 use crate::eval::OutputError;
 use crate::fit::Measure;
+use crate::num::Interval;
+use crate::report::examination::at_most;
 use crate::report::plot::{self, FrontPlot, PlotError, Theme};
 use crate::report::table::{Published, axis_title, cycles_text, error_text, front_table};
-use crate::report::verdict::verdict_lines;
+use crate::report::verdict::{number_text, verdict_lines};
 use crate::search::{Census, Front, FrontMember, Run, Search, TracePoint, trace_csv};
+use crate::stability::half_loss;
 use std::collections::BTreeSet;
 use std::ffi::OsStr;
 use std::path::{Path, PathBuf};
@@ -202,16 +205,21 @@ pub fn half_snippet(
     run: &Run,
     member: &FrontMember,
     language: Language,
+    domain: &[Interval],
     stay_single: &[usize],
 ) -> Option<String> {
     let (names, mut header) = (run.names(), header(run, member));
+    let (error, tried) = half_loss(&member.program, domain, stay_single);
+    header
+        .push("cost, errors and verdicts above are those of single precision; this is".to_owned());
     header.push(match stay_single.len() {
-        0 => "in half precision throughout; cost and errors are those of single".to_owned(),
-        singles => format!(
-            "in half precision, {singles} of {} operations in single; cost and errors are those of single",
-            member.program.instrs.len()
-        ),
+        0 => "in half precision throughout,".to_owned(),
+        singles => {
+            let total = member.program.instrs.len();
+            format!("in half precision, {singles} of {total} operations in single,")
+        }
     });
+    header.push(format!("which adds an error of {}", at_most(&number_text(error), tried)));
     let snippet =
         Snippet { program: &member.program, names: &names, function: &run.name, header: &header };
     emit::emit_half(language, &snippet, stay_single)

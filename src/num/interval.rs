@@ -240,6 +240,26 @@ pub fn enclose(low: f64, high: f64) -> Interval {
     Interval { low: below, high: above, may_be_nan: false }
 }
 
+/// The `f32`s between two numbers; the nearest one where there is none.
+///
+/// # Panics
+/// If either is NaN, or `low` exceeds `high`.
+pub fn inside(low: f64, high: f64) -> Interval {
+    assert!(low <= high, "[{low}, {high}] is no interval");
+    let (mut first, mut last) = (low as f32, high as f32);
+    if f64::from(first) < low {
+        first = first.next_up();
+    }
+    if f64::from(last) > high {
+        last = last.next_down();
+    }
+    if first <= last {
+        return Interval::new(first, last);
+    }
+    let nearest = ((low / 2.0 + high / 2.0) as f32).clamp(f32::MIN, f32::MAX);
+    Interval::new(nearest, nearest)
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -253,6 +273,17 @@ mod tests {
         assert!(third.low() < third.high() && third.low().next_up() == third.high());
         let tiny = Interval::new(1.0, 1.0).plus(Interval::new(1e-45, 1e-45));
         assert_eq!((tiny.low(), tiny.high()), (1.0, 1.0f32.next_up()));
+    }
+
+    #[test]
+    fn what_is_inside_is_never_an_ulp_outside() {
+        for (low, high) in [(0.1, 0.7), (0.3, 0.9), (-0.7, -0.1), (-1.0, 1.0), (0.0, 1e-46)] {
+            let sides = inside(low, high);
+            assert!(f64::from(sides.low()) >= low && f64::from(sides.high()) <= high, "{sides:?}");
+            assert!(f64::from(sides.low().next_down()) < low);
+            assert!(f64::from(sides.high().next_up()) > high);
+        }
+        assert_eq!(inside(0.1, 0.1), Interval::new(0.1, 0.1));
     }
 
     #[test]

@@ -15,7 +15,7 @@ mod sum;
 #[cfg(target_arch = "x86_64")]
 mod x86;
 
-pub use interval::{Interval, enclose};
+pub use interval::{Interval, enclose, inside};
 pub use lanes::Lanes;
 pub use many::Many;
 pub use sum::CompensatedSum;

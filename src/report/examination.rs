@@ -4,7 +4,7 @@ use super::verdict::{number_text, share_text, status_text};
 use crate::program::{Arg, Names, Program, effective, print_expression};
 use crate::stability::{
     At, Blame, Break, Cause, ClaimRecord, Examination, Finding, JUMP, Liberty, Loss, Place, Status,
-    Trend,
+    Trend, Tried,
 };
 use serde_json::{Value, json};
 use std::fmt::Write;
@@ -95,7 +95,8 @@ impl Page<'_> {
     }
 
     fn precision(&self) -> String {
-        let Examination { single, half, half_bound, stay_single, .. } = self.examination;
+        let Examination { single, half, half_bound, half_tried, stay_single, .. } =
+            self.examination;
         let mut text = String::from("\nprecision, worst found\n");
         for (what, worst) in [("f32", single), ("f16", half)] {
             for (kind, loss) in [("absolute", &worst.absolute), ("relative", &worst.relative)] {
@@ -114,7 +115,7 @@ impl Page<'_> {
         let bound = number_text(*half_bound);
         text += &match stay_single {
             Some(none) if none.is_empty() => {
-                format!("  f16 throughout errs by {bound} at most\n")
+                format!("  f16 throughout errs by {}\n", at_most(&bound, *half_tried))
             }
             Some(some) => {
                 let total = self.examination.program.instrs.len();
@@ -123,7 +124,8 @@ impl Page<'_> {
                 let each = each.concat();
                 let count = some.len();
                 format!(
-                    "  for {bound} in f16, {count} of {total} operations must stay f32:\n{each}"
+                    "  in f16, to err by {}, {count} of {total} operations must stay f32:\n{each}",
+                    at_most(&bound, *half_tried)
                 )
             }
             None => format!(
@@ -217,6 +219,21 @@ impl Page<'_> {
     }
 }
 
+/// A bound on the error of halves in words: a worst case only where there can be no worse.
+pub fn at_most(error: &str, tried: Tried) -> String {
+    let Tried { points, exhaustive } = tried;
+    match exhaustive {
+        true => format!(
+            "{error} at most (all {points} inputs that halves hold tried, denormals kept and flushed)"
+        ),
+        false => {
+            format!(
+                "no more than {error} at the worst of {points} points, denormals kept and flushed"
+            )
+        }
+    }
+}
+
 fn cause(cause: Cause) -> &'static str {
     match cause {
         Cause::Cancellation => "cancellation",
@@ -304,7 +321,8 @@ pub fn json(examination: &Examination, names: &Names) -> Value {
         "f32": {"absolute": loss(&examination.single.absolute), "relative": loss(&examination.single.relative), "not_finite": loss(&examination.single.not_finite)},
         "f16": {
             "absolute": loss(&examination.half.absolute), "relative": loss(&examination.half.relative), "not_finite": loss(&examination.half.not_finite),
-            "bound": examination.half_bound,
+            "bound": examination.half_bound, "points": examination.half_tried.points,
+            "exhaustive": examination.half_tried.exhaustive,
             "stay_f32": stay_single.map(|all| all.iter().map(|&i| page.operation(i)).collect::<Vec<_>>()),
         },
         "liberties": spreads.collect::<Vec<_>>(),

@@ -1,6 +1,6 @@
 //! Inputs at which claims fail, by looking.
 
-use super::Claim;
+use super::{Claim, points};
 use crate::num::Interval;
 use crate::program::Program;
 
@@ -20,23 +20,17 @@ pub(super) fn search(
 ) -> Vec<Option<(Vec<f32>, f32)>> {
     let sides = domain.iter().filter(|side| side.low() < side.high()).count().max(1);
     let per_side = (GRID.powf(1.0 / sides as f64) as usize).clamp(2, 1025);
-    let axes: Vec<Vec<f32>> = domain.iter().map(|&side| points(side, per_side)).collect();
+    let axes: Vec<Vec<f32>> = domain.iter().map(|&side| axis(side, per_side)).collect();
     let mut worst: Vec<Option<(f64, Vec<f32>)>> = vec![None; claims.len()];
-    let mut input = vec![0.0; domain.len()];
-    for index in 0..axes.iter().map(Vec::len).product() {
-        let mut rest: usize = index;
-        for (x, axis) in input.iter_mut().zip(&axes) {
-            *x = axis[rest % axis.len()];
-            rest /= axis.len();
-        }
-        let values = program.evaluate(&input);
+    points::each(&axes, |input| {
+        let values = program.evaluate(input);
         for (claim, worst) in claims.iter().zip(&mut worst) {
             let rank = rank(claim, values[claim.output], slack);
             if rank > worst.as_ref().map_or(0.0, |(known, _)| *known) {
-                *worst = Some((rank, input.clone()));
+                *worst = Some((rank, input.to_vec()));
             }
         }
-    }
+    });
     let finished = claims.iter().zip(worst).map(|(claim, worst)| {
         let (rank, input) = worst?;
         let input = climbed(program, domain, claim, slack, per_side, (rank, input));
@@ -52,7 +46,7 @@ fn rank(claim: &Claim, value: f32, slack: f64) -> f64 {
     if value.is_nan() { f64::MIN_POSITIVE } else { excess }
 }
 
-fn points(side: Interval, count: usize) -> Vec<f32> {
+fn axis(side: Interval, count: usize) -> Vec<f32> {
     let (low, high) = (f64::from(side.low()), f64::from(side.high()));
     if low == high {
         return vec![side.low()];

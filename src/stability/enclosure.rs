@@ -1,8 +1,10 @@
 //! Programs on boxes: every value that each instruction can give there.
 
+#![deny(clippy::wildcard_enum_match_arm)]
+
 use super::chord;
 use super::form::{Form, Terms};
-use super::rounding::{HUGE, Rounding, flushed};
+use super::rounding::{HUGE, Rounding, flushed, promised};
 use crate::eval::{Arithmetic, Bounds};
 use crate::num::Interval;
 use crate::op::{MAX_ARITY, Op};
@@ -135,18 +137,50 @@ impl Step<'_> {
             }
             Op::Lerp => self.lerp([a, b, c]),
             Op::Select => self.select([a, b], c, d),
-            _ => {
-                let bounds = bounds(self.rounding, op, &arguments, square);
-                let form = self.form(op, &arguments, square).map(|form| {
-                    let reach = f64::from(bounds.narrowed(form.bounds()).abs().high());
-                    let error = self.rounding.error(op, arguments.map(|argument| argument.bounds));
-                    // The value before rounding may reach a little further.
-                    form.widened(error.of(reach + error.of(reach)))
-                });
-                let form = form.filter(|_| describes(self.rounding, op, a.bounds, b.bounds));
-                Enclosed::new(self.rounding, bounds, form)
-            }
+            Op::Add
+            | Op::Sub
+            | Op::Mul
+            | Op::Div
+            | Op::Mad
+            | Op::Neg
+            | Op::Abs
+            | Op::Min
+            | Op::Max
+            | Op::Saturate
+            | Op::Rcp
+            | Op::Sqrt
+            | Op::Rsqrt
+            | Op::Exp2
+            | Op::Log2
+            | Op::Exp
+            | Op::Log
+            | Op::Sin
+            | Op::Cos
+            | Op::Tan
+            | Op::Asin
+            | Op::Acos
+            | Op::Atan
+            | Op::Atan2
+            | Op::Tanh
+            | Op::Step
+            | Op::Floor
+            | Op::Fract
+            | Op::Sign => self.single(op, arguments, square),
         }
+    }
+
+    /// An operation that is not made of others.
+    fn single(&mut self, op: Op, arguments: [Enclosed; MAX_ARITY], square: bool) -> Enclosed {
+        let [a, b, ..] = arguments;
+        let bounds = bounds(self.rounding, op, &arguments, square);
+        let form = self.form(op, &arguments, square).map(|form| {
+            let reach = f64::from(bounds.narrowed(form.bounds()).abs().high());
+            let error = self.rounding.error(op, arguments.map(|argument| argument.bounds));
+            // The value before rounding may reach a little further.
+            form.widened(error.of(reach + error.of(reach)))
+        });
+        let form = form.filter(|_| describes(self.rounding, op, a.bounds, b.bounds));
+        Enclosed::new(self.rounding, bounds, form)
     }
 
     fn of(&mut self, op: Op, arguments: &[Enclosed]) -> Enclosed {
@@ -201,14 +235,23 @@ impl Step<'_> {
                 let positive = chord::maximum(a?, zero.as_ref()?, terms);
                 Some(chord::minimum(&positive, one.as_ref()?, terms))
             }
-            Op::Floor | Op::Fract if x.low().floor() == x.high().floor() => {
-                let whole = f64::from(x.low().floor());
-                match op {
-                    Op::Floor => Some(a?.mapped(0.0, [whole; 2], 0.0, terms)),
-                    _ => Some(a?.mapped(1.0, [-whole; 2], whole.abs(), terms)),
-                }
-            }
-            _ => chord::image(op, a?, x, terms),
+            Op::Floor => Some(a?.mapped(0.0, [whole(x)?; 2], 0.0, terms)),
+            Op::Fract => Some(a?.mapped(1.0, [-whole(x)?; 2], whole(x)?.abs(), terms)),
+            Op::Rcp
+            | Op::Sqrt
+            | Op::Exp2
+            | Op::Exp
+            | Op::Log2
+            | Op::Log
+            | Op::Sin
+            | Op::Cos
+            | Op::Tan
+            | Op::Asin
+            | Op::Acos
+            | Op::Atan
+            | Op::Tanh => chord::image(op, a?, x, terms),
+            // Those that are made of others, and those that jump.
+            Op::Pow | Op::Lerp | Op::Atan2 | Op::Step | Op::Select | Op::Sign => None,
         }
     }
 
@@ -239,26 +282,34 @@ impl Step<'_> {
     }
 }
 
+/// The whole part that all numbers of an interval have.
+fn whole(x: Interval) -> Option<f64> {
+    (x.low().floor() == x.high().floor()).then(|| f64::from(x.low().floor()))
+}
+
 /// Whether the operation with its stated error is all that can happen.
 fn describes(rounding: Rounding, op: Op, a: Interval, b: Interval) -> bool {
     let reach = a.abs().high();
-    match (op, rounding) {
-        (Op::Sin | Op::Cos, Rounding::Gpu) => f64::from(reach) <= std::f64::consts::PI,
-        (Op::Sin | Op::Cos | Op::Tan, _) => reach <= 1e4,
-        (Op::Min | Op::Max, Rounding::Gpu) => !a.may_be_nan() && !b.may_be_nan(),
-        (Op::Saturate, Rounding::Gpu) => !a.may_be_nan(),
-        (Op::Rcp, Rounding::Gpu) => reach < HUGE,
-        (Op::Div, Rounding::Gpu) => b.abs().high() < HUGE,
-        _ => true,
+    let gpu = rounding == Rounding::Gpu;
+    match op {
+        Op::Sin | Op::Cos if gpu => promised(a),
+        // On GPUs a quotient, which is looked at in two steps.
+        Op::Sin | Op::Cos | Op::Tan => reach <= 1e4,
+        Op::Min | Op::Max => !gpu || !a.may_be_nan() && !b.may_be_nan(),
+        Op::Saturate => !gpu || !a.may_be_nan(),
+        Op::Rcp => !gpu || reach < HUGE,
+        Op::Div => !gpu || b.abs().high() < HUGE,
+        Op::Add | Op::Sub | Op::Mul | Op::Mad | Op::Neg | Op::Abs => true,
+        Op::Sqrt | Op::Rsqrt | Op::Exp2 | Op::Log2 | Op::Exp | Op::Log | Op::Pow => true,
+        Op::Asin | Op::Acos | Op::Atan | Op::Atan2 | Op::Tanh | Op::Lerp => true,
+        Op::Step | Op::Select | Op::Floor | Op::Fract | Op::Sign => true,
     }
 }
 
 fn bounds(rounding: Rounding, op: Op, arguments: &[Enclosed; MAX_ARITY], square: bool) -> Interval {
     let [a, b, c, d] = arguments.map(|argument| argument.bounds);
     // Of two equal signs, a product is that of the absolute values.
-    let (a, b) = match op {
-        Op::Mul | Op::Mad if square && !a.is_empty() => (a.abs(), a.abs()),
-        _ => (a, b),
-    };
+    let product = matches!(op, Op::Mul | Op::Mad);
+    let (a, b) = if product && square && !a.is_empty() { (a.abs(), a.abs()) } else { (a, b) };
     rounding.bounds(op, [a, b, c, d])
 }

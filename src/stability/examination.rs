@@ -1,7 +1,8 @@
 //! Everything that is looked into of one formula.
 
 use super::{
-    Extent, Precision, Questions, Smoothness, Spread, Verdict, extremes, must_stay_single, spreads,
+    Extent, Precision, Questions, Smoothness, Spread, Tried, Verdict, extremes, half, mixed,
+    must_stay_single, spreads,
 };
 use crate::program::{Program, effective};
 
@@ -17,6 +18,8 @@ pub struct Examination {
     /// none where nothing helps.
     pub stay_single: Option<Vec<usize>>,
     pub half_bound: f64,
+    /// Where that was tried.
+    pub half_tried: Tried,
     pub spreads: Vec<Spread>,
     pub extremes: Vec<Extent>,
     pub smoothness: Smoothness,
@@ -34,6 +37,7 @@ impl Examination {
             half: Precision::half(&program, domain),
             stay_single: must_stay_single(&program, domain, half_bound),
             half_bound,
+            half_tried: half::points(domain, mixed::POINTS).tried(),
             spreads: spreads(&program, domain),
             extremes: extremes(&program, domain),
             smoothness: Smoothness::of(&program, domain),

@@ -1,48 +1,141 @@
-//! Half precision, and the least that must stay in single.
+//! Half precision: where it is tried, and what it errs by.
 
 use super::points;
-use super::variants::unfused;
+use super::variants::Variant;
 use crate::eval::{Arithmetic, Double, Half};
 use crate::num::Interval;
 use crate::op::MAX_ARITY;
-use crate::program::{Arg, Program, use_counts};
+use crate::program::{Arg, Program};
 use half::f16;
+use serde::Serialize;
 
 /// The least half with all its digits, 2⁻¹⁴.
 pub(super) const LEAST_NORMAL: f64 = 6.103_515_625e-5;
 
-/// Points of a domain that halves can hold.
-pub(super) fn points(domain: &[Interval], total: usize) -> Vec<Vec<f32>> {
-    let mut axes = points::axes(domain, total, 14);
-    for (axis, side) in axes.iter_mut().zip(domain) {
-        axis.iter_mut().for_each(|x| *x = rounded(*x));
-        // A side narrower than the halves there are keeps the nearest.
-        let inside: Vec<f32> =
-            axis.iter().copied().filter(|&x| side.contains(f64::from(x))).collect();
-        if !inside.is_empty() {
-            *axis = inside;
-        }
-        axis.dedup();
-    }
-    points::all(&axes)
+/// Denormal halves as they are, and flushed to zero: a GPU may do either.
+pub(super) const ARITHMETICS: [Half; 2] =
+    [Half { flush_to_zero: false }, Half { flush_to_zero: true }];
+
+/// Where half precision was tried.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+pub struct Tried {
+    pub points: usize,
+    /// Whether these are all inputs in the domain that halves hold, so that the worst of them is the
+    /// worst there is.
+    pub exhaustive: bool,
 }
 
-fn rounded(x: f32) -> f32 {
+/// Inputs that halves hold.
+pub(super) struct Points {
+    pub points: Vec<Vec<f32>>,
+    pub exhaustive: bool,
+}
+
+impl Points {
+    pub fn tried(&self) -> Tried {
+        Tried { points: self.points.len(), exhaustive: self.exhaustive }
+    }
+}
+
+/// Combinations of halves that are all tried: those of one input are 63,488 at most.
+const MOST: usize = 1 << 16;
+
+/// All points of a domain that halves hold, if they are not too many; else some, about as many as asked
+/// for, among them zeros, denormals and the neighbours of the domain's ends.
+pub(super) fn points(domain: &[Interval], total: usize) -> Points {
+    let counts = domain.iter().map(|&side| halves(side).count().max(1));
+    let count = counts.fold(1usize, usize::saturating_mul);
+    if count <= MOST {
+        let axes: Vec<Vec<f32>> = domain.iter().map(|&side| all_or_nearest(side)).collect();
+        let mut points = Vec::with_capacity(count);
+        points::every(&axes, count, |point| points.push(point.to_vec()));
+        return Points { points, exhaustive: true };
+    }
+    let spread = points::axes(domain, total, 14);
+    let axes: Vec<Vec<f32>> =
+        spread.into_iter().zip(domain).map(|(axis, &side)| halves_of(axis, side)).collect();
+    let mut points = points::all(&axes);
+    for (i, &side) in domain.iter().enumerate() {
+        for x in halves_of(special(side), side) {
+            points.extend(elsewhere(&axes, i).into_iter().map(|mut point| {
+                point[i] = x;
+                point
+            }));
+        }
+    }
+    Points { points, exhaustive: false }
+}
+
+/// The other inputs at their ends and in the middle: each by itself where they are few, else together.
+fn elsewhere(axes: &[Vec<f32>], along: usize) -> Vec<Vec<f32>> {
+    const FEW: usize = 3;
+    let three = |axis: &Vec<f32>| vec![axis[0], axis[axis.len() / 2], axis[axis.len() - 1]];
+    let others: Vec<Vec<f32>> = axes.iter().map(three).collect();
+    if axes.len() > FEW {
+        return (0..3).map(|k| others.iter().map(|axis| axis[k]).collect()).collect();
+    }
+    let one = |(i, axis): (usize, &Vec<f32>)| if i == along { vec![axis[0]] } else { axis.clone() };
+    points::all(&others.iter().enumerate().map(one).collect::<Vec<_>>())
+}
+
+/// The finite halves of an interval, both zeros among them, from below.
+fn halves(side: Interval) -> impl Iterator<Item = f32> {
+    const FINITE: u16 = 0x7c00;
+    let negative = (0..FINITE).rev().map(|bits| f16::from_bits(0x8000 | bits));
+    let all = negative.chain((0..FINITE).map(f16::from_bits)).map(f32::from);
+    all.filter(move |&x| side.contains(x.into()))
+}
+
+/// Of a side that holds no half, the half that stands for it.
+fn all_or_nearest(side: Interval) -> Vec<f32> {
+    let all: Vec<f32> = halves(side).collect();
+    if all.is_empty() { vec![rounded(side.low())] } else { all }
+}
+
+/// What halves make of numbers of a side, where it holds that.
+fn halves_of(mut axis: Vec<f32>, side: Interval) -> Vec<f32> {
+    axis.iter_mut().for_each(|x| *x = rounded(*x));
+    let nearest = axis.first().copied();
+    axis.retain(|&x| side.contains(x.into()));
+    axis.sort_by(f32::total_cmp);
+    axis.dedup_by_key(|x| x.to_bits());
+    if axis.is_empty() { nearest.into_iter().collect() } else { axis }
+}
+
+/// The ends of a side and their neighbours, zeros, and the ends of the denormal halves.
+fn special(side: Interval) -> Vec<f32> {
+    let mut special = vec![side.low(), side.high()];
+    special.extend(halves(side).take(3));
+    let above = Interval::new(side.low().max(side.high() / 2.0).min(side.high()), side.high());
+    let last: Vec<f32> = halves(above).collect();
+    special.extend(last.iter().rev().take(3));
+    for size in [0.0, 5.960_464_5e-8, 6.097_555e-5, LEAST_NORMAL as f32] {
+        special.extend([size, -size]);
+    }
+    special
+}
+
+pub(super) fn rounded(x: f32) -> f32 {
     f32::from(f16::from_f32(x))
 }
 
 /// The outputs at a point, in half precision but for the instructions marked (none where the list
 /// ends). A half that meets single precision is taken as it is, a single that meets halves is
 /// rounded; outputs are halves.
-pub(super) fn outputs(program: &Program, single: &[bool], point: &[f32]) -> Vec<f64> {
-    let arithmetic = Half::default();
+pub(super) fn outputs(
+    program: &Program,
+    single: &[bool],
+    arithmetic: Half,
+    point: &[f32],
+) -> Vec<f64> {
+    let stored = |x: f32| f32::from(arithmetic.constant(x));
     let mut results: Vec<f32> = Vec::with_capacity(program.instrs.len());
     for (i, instr) in program.instrs.iter().enumerate() {
         let in_single = single.get(i).copied().unwrap_or(false);
         let mut arguments = [0.0; MAX_ARITY];
         for (to, &arg) in arguments.iter_mut().zip(instr.args()) {
             *to = match arg {
-                Arg::Input(i) => point[usize::from(i)],
+                Arg::Input(i) => stored(point[usize::from(i)]),
                 Arg::Const(i) => program.consts[usize::from(i)],
                 Arg::Result(i) => results[usize::from(i)],
             };
@@ -53,87 +146,68 @@ pub(super) fn outputs(program: &Program, single: &[bool], point: &[f32]) -> Vec<
         });
     }
     let value = |&arg: &Arg| match arg {
-        Arg::Input(i) => rounded(point[usize::from(i)]),
-        Arg::Const(i) => rounded(program.consts[usize::from(i)]),
-        Arg::Result(i) => rounded(results[usize::from(i)]),
+        Arg::Input(i) => stored(point[usize::from(i)]),
+        Arg::Const(i) => stored(program.consts[usize::from(i)]),
+        Arg::Result(i) => stored(results[usize::from(i)]),
     };
     program.outputs.iter().map(|arg| value(arg).into()).collect()
 }
 
-/// The largest error of any output, absolute; infinite where one is no number in halves only. What is
-/// no number in `f64` either is no fault of halves.
-fn error(program: &Program, single: &[bool], point: &[f32], exact: &[f64]) -> f64 {
-    let found = outputs(program, single, point);
-    let errors = found.iter().zip(exact).map(|(found, exact)| match (found - exact).abs() {
+/// A program as it may be compiled, in halves but for some instructions.
+pub(super) struct Mixed {
+    /// Each with the marks of what is in single.
+    variants: Vec<(Program, Vec<bool>)>,
+}
+
+impl Mixed {
+    /// `single` marks instructions of the program as written.
+    pub fn new(variants: &[Variant], single: &[bool]) -> Mixed {
+        let marked = |variant: &Variant| {
+            let marks = variant.origin.iter().map(|&i| single.get(i).copied().unwrap_or(false));
+            (variant.program.clone(), marks.collect())
+        };
+        Mixed { variants: variants.iter().map(marked).collect() }
+    }
+
+    /// The outputs, however it is compiled and whatever becomes of denormals.
+    pub fn outputs<'a>(&'a self, point: &'a [f32]) -> impl Iterator<Item = Vec<f64>> + 'a {
+        let each = |(program, single): &'a (Program, Vec<bool>)| {
+            ARITHMETICS.map(|arithmetic| outputs(program, single, arithmetic, point))
+        };
+        self.variants.iter().flat_map(each)
+    }
+
+    /// The largest error of any output, absolute; infinite where one is no number in halves only. What
+    /// is no number in `f64` either is no fault of halves.
+    pub fn error(&self, point: &[f32], exact: &[f64]) -> f64 {
+        let worst_of = |found: Vec<f64>| {
+            let errors = found.iter().zip(exact).map(|(found, exact)| error(*found, *exact));
+            errors.fold(0.0, f64::max)
+        };
+        self.outputs(point).map(worst_of).fold(0.0, f64::max)
+    }
+}
+
+fn error(found: f64, exact: f64) -> f64 {
+    match (found - exact).abs() {
         _ if found == exact || !exact.is_finite() => 0.0,
         error if error.is_nan() => f64::INFINITY,
         error => error,
-    });
-    errors.fold(0.0, f64::max)
+    }
 }
 
-/// Points on which sets are tried, before all.
-const FEW: usize = 48;
+/// The outputs in `f64`.
+pub(super) fn exact(program: &Program, point: &[f32]) -> Vec<f64> {
+    Double.evaluate(program, &point.iter().map(|&x| x.into()).collect::<Vec<_>>())
+}
 
-/// Points that a set is held against.
-const POINTS: usize = 8192;
-
-/// The largest error of a program in half precision at the given points, fused or not.
+/// The largest error of a program in half precision at the given points, fused or not, denormals
+/// flushed or not.
 pub fn half_error<'a>(program: &Program, inputs: impl Iterator<Item = &'a [f32]>) -> f64 {
-    let forms = [program.clone(), unfused(program)];
+    let mixed = Mixed::new(&Variant::fused_or_not(program), &[]);
     let worst_of = |point: &[f32]| {
         let point: Vec<f32> = point.iter().map(|&x| rounded(x)).collect();
-        let exact = Double.evaluate(program, &point.iter().map(|&x| x.into()).collect::<Vec<_>>());
-        let errors = forms.iter().map(|form| error(form, &[], &point, &exact));
-        errors.fold(0.0, f64::max)
+        mixed.error(&point, &exact(program, &point))
     };
     inputs.map(worst_of).fold(0.0, f64::max)
-}
-
-/// The instructions that must stay in single precision for the error over the domain to be at most
-/// `bound`: the smallest set that was found, by adding what helps most and then taking away what is
-/// not needed. None where not even single precision throughout is enough.
-///
-/// # Panics
-/// If `domain` has not one interval for each input.
-pub fn must_stay_single(program: &Program, domain: &[Interval], bound: f64) -> Option<Vec<usize>> {
-    let mut used = Vec::new();
-    use_counts(program, &mut used);
-    let active: Vec<usize> = (0..program.instrs.len()).filter(|&i| used[i] > 0).collect();
-    let with_exact = |point: Vec<f32>| {
-        let exact = Double.evaluate(program, &point.iter().map(|&x| x.into()).collect::<Vec<_>>());
-        (point, exact)
-    };
-    let all: Vec<(Vec<f32>, Vec<f64>)> =
-        points(domain, POINTS).into_iter().map(with_exact).collect();
-    let worst = |single: &[bool], points: &[usize]| {
-        let errors = points.iter().map(|&i| error(program, single, &all[i].0, &all[i].1));
-        errors.fold(0.0, f64::max)
-    };
-    let everywhere: Vec<usize> = (0..all.len()).collect();
-    let mut single = vec![false; program.instrs.len()];
-    let mut few: Vec<usize> = everywhere.clone();
-    let at_first: Vec<f64> =
-        all.iter().map(|(point, exact)| error(program, &single, point, exact)).collect();
-    few.sort_by(|&a, &b| at_first[b].total_cmp(&at_first[a]));
-    few.truncate(FEW);
-    while worst(&single, &everywhere) > bound {
-        let left: Vec<usize> = active.iter().copied().filter(|&i| !single[i]).collect();
-        let mut tried = |i: usize| {
-            single[i] = true;
-            let error = worst(&single, &few);
-            single[i] = false;
-            error
-        };
-        let left: Vec<(f64, usize)> = left.iter().map(|&i| (tried(i), i)).collect();
-        let best = left.into_iter().min_by(|a, b| a.0.total_cmp(&b.0))?.1;
-        single[best] = true;
-    }
-    for &i in &active {
-        if single[i] {
-            single[i] = false;
-            single[i] = worst(&single, &everywhere) > bound;
-        }
-    }
-    Some(active.into_iter().filter(|&i| single[i]).collect())
 }

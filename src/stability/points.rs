@@ -38,26 +38,24 @@ fn axis(side: Interval, count: usize, finest: u32) -> Vec<f32> {
     points
 }
 
-/// Combinations that are visited at most.
-const MOST: usize = 1 << 17;
+/// Combinations that are visited at most, whatever the number of axes.
+const MOST: usize = 1 << 14;
 
-/// Calls `visit` at every combination of the axes' points, or at some that are spread by golden ratios
-/// where they are too many.
-pub(super) fn each(axes: &[Vec<f32>], mut visit: impl FnMut(&[f32])) {
-    let mut point = vec![0.0; axes.len()];
+/// Calls `visit` at every combination of the axes' points; where they are too many, at the two corners
+/// where all are first or last, at those where one axis is not as the others, and at some that are spread
+/// by golden ratios.
+pub(super) fn each(axes: &[Vec<f32>], visit: impl FnMut(&[f32])) {
     let count = axes.iter().try_fold(1usize, |product, axis| product.checked_mul(axis.len()));
-    if count.is_none_or(|count| count > MOST) {
-        for index in 0..MOST {
-            for (k, (x, axis)) in point.iter_mut().zip(axes).enumerate() {
-                let share =
-                    ((index + 1) as f64 * (0.618_033_988_75 + k as f64 * 0.414_213_562_37)).fract();
-                *x = axis[((share * axis.len() as f64) as usize).min(axis.len() - 1)];
-            }
-            visit(&point);
-        }
-        return;
-    }
-    for index in 0..axes.iter().map(Vec::len).product() {
+    let Some(count) = count.filter(|&count| count <= MOST) else {
+        return some(axes, visit);
+    };
+    every(axes, count, visit);
+}
+
+/// All combinations, of which there are `count`.
+pub(super) fn every(axes: &[Vec<f32>], count: usize, mut visit: impl FnMut(&[f32])) {
+    let mut point = vec![0.0; axes.len()];
+    for index in 0..count {
         let mut rest: usize = index;
         for (x, axis) in point.iter_mut().zip(axes) {
             *x = axis[rest % axis.len()];
@@ -67,7 +65,31 @@ pub(super) fn each(axes: &[Vec<f32>], mut visit: impl FnMut(&[f32])) {
     }
 }
 
-/// Every combination of the axes' points.
+fn some(axes: &[Vec<f32>], mut visit: impl FnMut(&[f32])) {
+    let end = |axis: &Vec<f32>, last: bool| axis[if last { axis.len() - 1 } else { 0 }];
+    let corner = |last: bool| axes.iter().map(|axis| end(axis, last)).collect::<Vec<f32>>();
+    let mut point = Vec::new();
+    for last in [false, true] {
+        point = corner(last);
+        visit(&point);
+        for i in 0..axes.len().min(MOST / 4) {
+            let before = point[i];
+            point[i] = end(&axes[i], !last);
+            visit(&point);
+            point[i] = before;
+        }
+    }
+    for index in 0..MOST / 2 {
+        for (k, (x, axis)) in point.iter_mut().zip(axes).enumerate() {
+            let share =
+                ((index + 1) as f64 * (0.618_033_988_75 + k as f64 * 0.414_213_562_37)).fract();
+            *x = axis[((share * axis.len() as f64) as usize).min(axis.len() - 1)];
+        }
+        visit(&point);
+    }
+}
+
+/// The combinations of the axes' points that [`each`] visits.
 pub(super) fn all(axes: &[Vec<f32>]) -> Vec<Vec<f32>> {
     let mut points = Vec::new();
     each(axes, |point| points.push(point.to_vec()));

@@ -1,9 +1,9 @@
 //! What single and half precision lose.
 
 use super::blame::{Blame, Cause, Trace, relative, traced};
-use super::variants::unfused;
+use super::variants::Variant;
 use super::{half, points};
-use crate::eval::{Arithmetic, Double};
+use crate::eval::{Arithmetic, Double, Half};
 use crate::num::Interval;
 use crate::op::Op;
 use crate::program::{Arg, Program};
@@ -64,54 +64,52 @@ impl Precision {
     /// # Panics
     /// If `domain` has not one interval for each input.
     pub fn single(program: &Program, domain: &[Interval]) -> Precision {
-        let forms = [program.clone(), unfused(program)];
         let points = points::all(&points::axes(domain, POINTS, 24));
         let least = f32::MIN_POSITIVE.into();
-        worst(&forms, &points, least, |program, point| {
-            program.evaluate(point).into_iter().map(f64::from).collect()
+        worst(program, &points, least, |program, point| {
+            vec![program.evaluate(point).into_iter().map(f64::from).collect()]
         })
     }
 
-    /// The same of half precision, at inputs that halves can hold.
+    /// The same of half precision, at inputs that halves can hold, whether denormals are flushed or not.
     ///
     /// # Panics
     /// If `domain` has not one interval for each input.
     pub fn half(program: &Program, domain: &[Interval]) -> Precision {
-        let forms = [program.clone(), unfused(program)];
-        let points = half::points(domain, POINTS);
-        let least = half::LEAST_NORMAL;
-        worst(&forms, &points, least, |program, point| half::outputs(program, &[], point))
+        Precision::in_halves(program, domain, &half::ARITHMETICS)
+    }
+
+    /// The same of some arithmetics of halves: denormals kept, or flushed, or both.
+    ///
+    /// # Panics
+    /// If `domain` has not one interval for each input.
+    pub fn in_halves(program: &Program, domain: &[Interval], arithmetics: &[Half]) -> Precision {
+        let points = half::points(domain, POINTS).points;
+        worst(program, &points, half::LEAST_NORMAL, |program, point| {
+            let of = |&arithmetic| half::outputs(program, &[], arithmetic, point);
+            arithmetics.iter().map(of).collect()
+        })
     }
 }
 
+/// The worst of what an evaluation gives, or several, each of all outputs; instructions are those of the
+/// program as written.
 fn worst(
-    forms: &[Program],
+    program: &Program,
     points: &[Vec<f32>],
     least: f64,
-    evaluate: impl Fn(&Program, &[f32]) -> Vec<f64>,
+    evaluate: impl Fn(&Program, &[f32]) -> Vec<Vec<f64>>,
 ) -> Precision {
     let mut worst = Precision::default();
-    for program in forms {
-        let traced = traced(program);
-        let count = program.instrs.len();
+    for Variant { program, origin } in Variant::fused_or_not(program) {
+        let traced = traced(&program);
         for point in points {
-            let found = evaluate(&traced, point);
             let inputs: Vec<f64> = point.iter().map(|&x| x.into()).collect();
             let exact = Double.evaluate(&traced, &inputs);
-            let trace = Trace { program, inputs: point, found: &found, exact: &exact, least };
-            for (output, &arg) in program.outputs.iter().enumerate() {
-                let (f, e) = (found[count + output], exact[count + output]);
-                let vanished = vanished(&trace, f, e);
-                let plain = Blame { instruction: None, cause: Cause::Rounding, condition: 1.0 };
-                let blame = vanished.unwrap_or(plain);
-                let input = Vec::new();
-                let mut loss = Loss { output, input, found: f, exact: e, blame };
-                if !worst.is_worsened_by(&loss) {
-                    continue;
-                }
-                loss.blame = vanished.unwrap_or_else(|| trace.blame(arg));
-                loss.input.clone_from(point);
-                worst.take(&loss);
+            for found in evaluate(&traced, point) {
+                let (program, exact) = (&program, &exact);
+                let trace = Trace { program, inputs: point, found: &found, exact, least };
+                worst.note(&trace, &origin);
             }
         }
     }
@@ -119,6 +117,25 @@ fn worst(
 }
 
 impl Precision {
+    /// Notes what is worse at a point than what is known; `origin` are the instructions as written.
+    fn note(&mut self, trace: &Trace, origin: &[usize]) {
+        let count = trace.program.instrs.len();
+        for (output, &arg) in trace.program.outputs.iter().enumerate() {
+            let (found, exact) = (trace.found[count + output], trace.exact[count + output]);
+            let vanished = vanished(trace, found, exact);
+            let plain = Blame { instruction: None, cause: Cause::Rounding, condition: 1.0 };
+            let blame = vanished.unwrap_or(plain);
+            let mut loss = Loss { output, input: Vec::new(), found, exact, blame };
+            if !self.is_worsened_by(&loss) {
+                continue;
+            }
+            loss.blame = vanished.unwrap_or_else(|| trace.blame(arg));
+            loss.blame.instruction = loss.blame.instruction.map(|i| origin[i]);
+            loss.input = trace.inputs.to_vec();
+            self.take(&loss);
+        }
+    }
+
     fn is_worsened_by(&self, loss: &Loss) -> bool {
         let exceeds = |known: &Option<Loss>, size: fn(&Loss) -> f64| {
             known.as_ref().is_none_or(|known| size(loss) > size(known))

@@ -65,7 +65,7 @@ pub fn spreads(program: &Program, domain: &[Interval]) -> Vec<Spread> {
     let mut values = |program: &Program| evaluator.outputs(&Tape::new(program), &samples);
     let written = values(program);
     let spread = |liberty: Liberty| {
-        let other = values(&rewritten(program, liberty));
+        let other = values(&Variant::of(program, liberty).program);
         let mut worst: Option<Spread> = None;
         for (output, (a, b)) in written.iter().zip(&other).enumerate() {
             for (row, (&a, &b)) in a.iter().zip(b).enumerate() {
@@ -82,12 +82,40 @@ pub fn spreads(program: &Program, domain: &[Interval]) -> Vec<Spread> {
     LIBERTIES.into_iter().filter_map(spread).collect()
 }
 
-/// Each `mad` as a product and a sum.
-pub(super) fn unfused(program: &Program) -> Program {
-    rewritten(program, Liberty::Unfused)
+/// A program as a compiler may write it.
+pub(super) struct Variant {
+    pub program: Program,
+    /// For each of its instructions, the one of the program as written that it is of.
+    pub origin: Vec<usize>,
 }
 
-fn rewritten(program: &Program, liberty: Liberty) -> Program {
+impl Variant {
+    /// As written.
+    pub fn plain(program: &Program) -> Variant {
+        Variant { program: program.clone(), origin: (0..program.instrs.len()).collect() }
+    }
+
+    /// As written, and each `mad` as a product and a sum, where there is one.
+    pub fn fused_or_not(program: &Program) -> Vec<Variant> {
+        let mut variants = vec![Variant::plain(program)];
+        if program.instrs.iter().any(|instr| instr.op() == Op::Mad) {
+            variants.push(Variant::of(program, Liberty::Unfused));
+        }
+        variants
+    }
+
+    fn of(program: &Program, liberty: Liberty) -> Variant {
+        let (draft, origin) = rewritten(program, liberty);
+        // Only more instructions than a program can hold are refused.
+        match Program::verify(draft) {
+            Ok(program) => Variant { program, origin },
+            Err(_) => Variant::plain(program),
+        }
+    }
+}
+
+fn rewritten(program: &Program, liberty: Liberty) -> (Draft, Vec<usize>) {
+    let mut origin = Vec::with_capacity(program.instrs.len());
     let mut draft =
         Draft { inputs: program.inputs, consts: program.consts.clone(), ..Draft::default() };
     let one = draft.constant(1.0);
@@ -96,7 +124,7 @@ fn rewritten(program: &Program, liberty: Liberty) -> Program {
         Arg::Result(i) => moved[usize::from(i)],
         other => other,
     };
-    for instr in &program.instrs {
+    for (i, instr) in program.instrs.iter().enumerate() {
         let args: Vec<Arg> = instr.args().iter().map(|&arg| now(arg, &moved)).collect();
         let inner = |arg: Arg, op: Op, draft: &Draft| match arg {
             Arg::Result(i) if draft.instrs[usize::from(i)].op() == op => {
@@ -148,8 +176,8 @@ fn rewritten(program: &Program, liberty: Liberty) -> Program {
             },
             (_, op) => draft.push(op, &args),
         });
+        origin.resize(draft.instrs.len(), i);
     }
     draft.outputs = program.outputs.iter().map(|&arg| now(arg, &moved)).collect();
-    // Only more instructions than a program can hold are refused.
-    Program::verify(draft).unwrap_or_else(|_| program.clone())
+    (draft, origin)
 }

@@ -2,7 +2,7 @@
 
 use super::{Bound, Claim, Limits, Rounding, Status, Stopped, prove_until};
 use crate::dataset::Column;
-use crate::num::{Interval, enclose};
+use crate::num::{Interval, inside};
 use crate::op::Op;
 use crate::program::{Names, Program};
 
@@ -18,7 +18,7 @@ pub enum Topic {
 /// What is asked of a formula over a domain.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Questions {
-    /// What each input can be.
+    /// What each input can be: the numbers of `f32` that its domain holds.
     pub domain: Vec<Interval>,
     /// For each output, what it must not leave; infinite where it may.
     pub ranges: Vec<[f64; 2]>,
@@ -41,7 +41,7 @@ impl Questions {
         Questions {
             domain: inputs
                 .iter()
-                .map(|column| enclose(column.domain[0], column.domain[1]))
+                .map(|column| inside(column.domain[0], column.domain[1]))
                 .collect(),
             ranges: outputs.iter().map(range).collect(),
             energy: place("scale").zip(place("bias")).map(|(scale, bias)| [scale, bias]),

@@ -2,6 +2,8 @@
 
 mod enclosure;
 mod front;
+mod half;
 mod incumbents;
+mod random;
 mod sloppy;
 mod stiff;

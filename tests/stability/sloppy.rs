@@ -1,5 +1,7 @@
 //! A GPU that makes, at random, every error that the specifications allow it.
 
+#![deny(clippy::wildcard_enum_match_arm)]
+
 use lgp::eval::{Arithmetic, Double};
 use lgp::op::Op;
 use lgp::program::Program;
@@ -21,6 +23,12 @@ impl Sloppy {
 
     fn coin(&self) -> bool {
         self.0.borrow_mut().random_bool(0.5)
+    }
+
+    /// Where nothing is promised.
+    fn anything(&self) -> f32 {
+        let some = [0.0, -1.0, 1.5, -1e30, f32::INFINITY, f32::NAN];
+        some[self.0.borrow_mut().random_range(0..some.len())]
     }
 
     fn flushed(&self, x: f32) -> f32 {
@@ -96,8 +104,11 @@ impl Arithmetic for Sloppy {
             Op::Sin | Op::Cos if a.abs() <= std::f32::consts::PI => {
                 self.off(exact, 0.0, f64::powi(2.0, -11))
             }
+            Op::Sin | Op::Cos if a.is_nan() => a,
+            Op::Sin | Op::Cos => self.anything(),
             Op::Tan => two(Op::Div, two(Op::Sin, a, 0.0), two(Op::Cos, a, 0.0)),
             Op::Atan => self.off(exact, 4096.0, 0.0),
+            Op::Atan2 => self.flushed(op.apply(arguments)),
             Op::Asin | Op::Acos if a.abs() <= 1.0 => {
                 let root = two(Op::Sqrt, two(Op::Sub, 1.0, two(Op::Mul, a, a)).max(0.0), 0.0);
                 let (y, x) = if op == Op::Asin { (a, root) } else { (root, a) };
@@ -108,12 +119,19 @@ impl Arithmetic for Sloppy {
                 two(Op::Add, two(Op::Mul, a, two(Op::Sub, 1.0, c)), two(Op::Mul, b, c))
             }
             Op::Lerp => self.apply(Op::Mad, [c, two(Op::Sub, b, a), a, 0.0]),
-            Op::Min | Op::Max if self.coin() => match op {
-                Op::Min => a.min(b),
-                _ => a.max(b),
-            },
+            Op::Min if self.coin() => a.min(b),
+            Op::Max if self.coin() => a.max(b),
             Op::Saturate if a.is_nan() && self.coin() => 0.0,
-            _ => self.flushed(op.apply(arguments)),
+            // Without an error of their own, or without a value.
+            Op::Neg
+            | Op::Abs
+            | Op::Min
+            | Op::Max
+            | Op::Saturate
+            | Op::Sqrt
+            | Op::Asin
+            | Op::Acos => self.flushed(op.apply(arguments)),
+            Op::Step | Op::Select | Op::Floor | Op::Sign => self.flushed(op.apply(arguments)),
         }
     }
 }
