@@ -51,7 +51,8 @@ fn main() -> Outcome<()> {
     };
 
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("results/dfg");
-    let names = Run::load(&folder)?.names();
+    let run = Run::load(&folder)?;
+    let names = run.names();
     let unit = parse("scale = mad(n_dot_v, .7, .1); bias = mad(roughness, .6, .2)", &names)?;
     // Two multiply-adds, one in each of two chains: twice the throughput, once the latency.
     let multiply_add = || -> Outcome<[f64; 2]> {
@@ -66,7 +67,7 @@ fn main() -> Outcome<()> {
     println!();
     let mut measured: Vec<[f64; 2]> = Vec::new();
     let mut promised: Vec<Vec<[f64; 2]>> = vec![Vec::new(); profiles.len()];
-    let front = Front::load(&folder.join("front.json"), &names, Measure::Rmse)?;
+    let front = Front::load(&folder.join("front.json"), &run, Measure::Rmse)?;
     for (i, member) in front.members.iter().enumerate() {
         // A formula that ignores an input is no chain.
         if member.cost < 4.0 {

@@ -30,6 +30,9 @@ impl Member {
     }
 }
 
+/// A loss smaller than the reference by more than this counts as zero.
+const MOST_GAIN: f64 = 1e30;
+
 /// Members by rising cost, their losses falling. What is offered may come in any order.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Archive {
@@ -66,8 +69,8 @@ impl Archive {
         }
     }
 
-    /// The area between the front and (`max_cost`, `reference`), error on a logarithmic axis: a larger
-    /// one is better.
+    /// The area between the front and (`max_cost`, `reference`), a loss, errors on a logarithmic axis: a larger
+    /// one is better. With the best constant's loss for `reference` it does not depend on any unit.
     pub fn hypervolume(&self, max_cost: f64, reference: f64) -> f64 {
         let ends = self.members.iter().skip(1).map(|member| member.cost).chain([max_cost]);
         self.members
@@ -75,7 +78,7 @@ impl Archive {
             .zip(ends)
             .filter(|(member, _)| member.loss < reference && member.cost < max_cost)
             .map(|(member, end)| {
-                (end.min(max_cost) - member.cost) * (reference / member.loss.max(1e-30)).ln()
+                (end.min(max_cost) - member.cost) * (reference / member.loss).min(MOST_GAIN).ln()
             })
             .sum()
     }

@@ -150,11 +150,11 @@ fn quantisation_hides_errors() {
         let error = Score::of(&program, &data, &mut evaluator).search[0];
         assert!((error.visible.unwrap() - visible).abs() < 1e-7, "{text}: {error:?}");
         // What a search and its fits see.
-        let samples = Measure::Visible.all_samples(&data.search, 2);
+        let samples = Measure::Visible.all_samples(&data.search, 2, &[1.0]);
         let seen = evaluator.loss(&Tape::new(&program), &samples, f64::INFINITY).total();
         let mean = seen / samples.total_weight();
         assert!((mean.sqrt() - visible).abs() < 1e-6, "{text}: {mean}");
-        let plain = Measure::Rmse.all_samples(&data.search, 2);
+        let plain = Measure::Rmse.all_samples(&data.search, 2, &[1.0]);
         let loss = evaluator.loss(&Tape::new(&program), &plain, f64::INFINITY).total();
         assert!((loss / plain.total_weight()).sqrt() > 0.0014);
         // A fit moves the constant no further than where its error is hidden.

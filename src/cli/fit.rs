@@ -1,7 +1,7 @@
 use super::eval::assigned_outputs;
 use super::{Common, Exit, Failure, columns::Columns};
 use crate::cost::Profile;
-use crate::dataset::Dataset;
+use crate::dataset::{Dataset, output_units};
 use crate::fit::{Measure, Parameter, fit_model};
 use crate::program::{Draft, Names, Parsed, Program};
 use crate::report::table::front_table;
@@ -61,7 +61,8 @@ pub fn run(args: &Args, common: &Common) -> Result<(), Failure> {
     }
     let dataset = whole.select(Some(&names.inputs), Some(&names.outputs))?;
     let measure = args.loss.unwrap_or(Measure::usual(&dataset.search));
-    let samples = measure.all_samples(&dataset.search, dataset.inputs.len());
+    let units = output_units(&dataset.outputs);
+    let samples = measure.all_samples(&dataset.search, dataset.inputs.len(), &units);
     let mut draft = program.into_draft();
     let mut parameters: Vec<Parameter> = free
         .iter()

@@ -8,7 +8,7 @@ use crate::fit::Measure;
 use crate::num::Interval;
 use crate::report::examination::at_most;
 use crate::report::plot::{self, FrontPlot, PlotError, Theme};
-use crate::report::table::{Published, axis_title, cycles_text, error_text, front_table};
+use crate::report::table::{Published, axis_title, cycles_text, error_text, front_table, title};
 use crate::report::verdict::{number_text, verdict_lines};
 use crate::search::{Census, Front, FrontMember, Run, Search, TracePoint, trace_csv};
 use crate::stability::half_loss;
@@ -233,15 +233,15 @@ fn header(run: &Run, member: &FrontMember) -> Vec<String> {
         format!("data: {} ({}), {}, lgp {}", run.name, run.dataset_hash, seeds(run), run.version),
         format!("domain: {}", domains(&run.inputs)),
         cost_line(member, run),
-        format!("error: {} on the search split", described(search)),
-        format!("       {} on the validation split", described(validation)),
+        format!("error: {} on the search split", described(search, run.settings.measure)),
+        format!("       {} on the validation split", described(validation, run.settings.measure)),
     ];
     if let Some(scene) = &run.scene {
         header.insert(2, format!("scene: {}: {}", scene.name, scene.summary()));
     }
     if names.outputs.len() > 1 {
         for (output, error) in names.outputs.iter().zip(&member.score.search) {
-            header.push(format!("       {output}: {}", described(*error)));
+            header.push(format!("       {output}: {}", described(*error, run.settings.measure)));
         }
     }
     header.extend(verdict_lines(&member.verdict));
@@ -268,10 +268,13 @@ fn cost_line(member: &FrontMember, run: &Run) -> String {
     }
 }
 
-fn described(error: OutputError) -> String {
-    let visible = error.visible.map(|visible| format!(", visible RMSE {}", error_text(visible)));
-    let (rmse, max) = (error_text(error.rmse), error_text(error.max));
-    format!("RMSE {rmse}, max {max}{}", visible.unwrap_or_default())
+/// RMSE and maximum; and first what was made small, if it is neither.
+fn described(error: OutputError, measure: Measure) -> String {
+    let usual = format!("RMSE {}, max {}", error_text(error.rmse), error_text(error.max));
+    match measure {
+        Measure::Rmse | Measure::Max => usual,
+        _ => format!("{} {}, {usual}", title(measure), error_text(error.of(measure))),
+    }
 }
 
 pub(super) fn domains(inputs: &[Column]) -> String {
@@ -302,6 +305,6 @@ pub fn load(folder: &Path, which: Which) -> Result<(Run, Front), Failure> {
         true => (MINIMAX_FRONT, Measure::Max),
         false => (FRONT, run.settings.measure),
     };
-    let front = Front::load(&folder.join(file), &run.names(), measure)?;
+    let front = Front::load(&folder.join(file), &run, measure)?;
     Ok((run, front))
 }

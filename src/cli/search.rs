@@ -291,7 +291,7 @@ fn evolve(
             break;
         }
         search.advance(problem);
-        let point = search.trace_point(seconds());
+        let point = search.trace_point(problem, seconds());
         let progress = match (time, args.generations) {
             (_, Some(n)) => search.generation() as f64 / n.max(1) as f64,
             (Some(time), None) => point.seconds / time.as_secs_f64().max(1e-3),

@@ -3,7 +3,7 @@ use super::subject::Subject;
 use super::{Common, Exit, Failure};
 use crate::dataset::Dataset;
 use crate::emit::{Language, read_back};
-use crate::eval::{Evaluator, OutputError, Samples, Score, Tape, joint};
+use crate::eval::{Evaluator, OutputError, Samples, Score, Tape};
 use crate::op::Op;
 use crate::program::{Arg, Names, Program, parse};
 use crate::report::table::error_text;
@@ -68,7 +68,7 @@ pub fn run(args: &Args, common: &Common) -> Result<(), Failure> {
     let formula = commented(&text, &names);
     let mismatch =
         formula.as_ref().and_then(|formula| difference(&program, formula, &dataset, &names).err());
-    let (search, validation) = (joint(&score.search), joint(&score.validation));
+    let (search, validation) = (score.joint_search(), score.joint_validation());
     let met = score.is_finite() && search.rmse <= args.max_error && mismatch.is_none();
     let verified = Verified {
         met,

@@ -12,11 +12,13 @@ mod format;
 mod incumbent;
 mod prune;
 mod select;
+mod unit;
 
 pub use csv::{InputColumns, Table, import_csv};
 pub use error::Error;
 pub use file::replace_file;
 pub use incumbent::{Comparable, Incumbent, incumbents_file, incumbents_for, load_incumbents};
+pub use unit::{joint_unit, output_units, unit};
 
 use crate::program::Names;
 use serde::{Deserialize, Serialize};

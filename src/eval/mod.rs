@@ -43,7 +43,7 @@ pub use gauss_newton::{Jacobian, NormalEquations};
 pub use isa::Isa;
 pub use loss::Loss;
 pub use samples::Samples;
-pub use score::{OutputError, RELATIVE_FLOOR, Score, joint};
+pub use score::{OutputError, Score, relative_floor};
 pub use tape::Tape;
 pub use values::Values;
 

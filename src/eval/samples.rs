@@ -69,7 +69,8 @@ impl Samples {
         self.outputs
     }
 
-    /// The sum of all weights, over samples and outputs.
+    /// What a sum of squares over samples and outputs is divided by to become a mean: the sum of all weights,
+    /// unless [`Samples::set_total_weight`] said otherwise.
     pub fn total_weight(&self) -> f64 {
         self.total_weight
     }
@@ -103,6 +104,12 @@ impl Samples {
             .map(|(lane, &weight)| f64::from(weight) - f64::from(std::mem::replace(lane, weight)))
             .sum();
         self.total_weight += change;
+    }
+
+    /// Says what makes a mean of a sum of squares, where it is not the sum of the weights: weights that turn
+    /// errors into relative ones, or that hold a formula to some samples, are none of importance.
+    pub fn set_total_weight(&mut self, total: f64) {
+        self.total_weight = total;
     }
 
     /// Makes errors of one output up to these free: only what exceeds them counts in sums of squares.

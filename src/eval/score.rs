@@ -1,30 +1,38 @@
 //! The errors that are quoted.
 
 use super::{Evaluator, Samples, Tape};
-use crate::dataset::Dataset;
+use crate::dataset::{Dataset, Split, joint_unit, output_units};
 use crate::program::Program;
 use serde::{Deserialize, Serialize};
 
 /// Errors of one output, in its own unit.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct OutputError {
+    /// Root mean square over the samples, whatever weights they were given.
     pub rmse: f64,
     pub max: f64,
     /// Root mean square of the errors relative to the value; values below a thousandth of the output's
-    /// largest count as that.
+    /// largest on the search split count as that.
     pub relative: f64,
-    /// Root mean square of what exceeds the errors that nobody sees; none where all errors count.
+    /// Root mean square, the samples weighted as the dataset says; none where it says nothing.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub weighted: Option<f64>,
+    /// As weighted, of what exceeds the errors that nobody sees; none where all errors count.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub visible: Option<f64>,
 }
 
-/// A program's errors on a dataset. What is not finite is infinite.
+/// A program's errors on a dataset, by output. What is not finite is infinite.
+///
+/// On a validation split denser than the search split, each sample counts by its share of the domain: that is
+/// how such splits are weighted where the search split is not. Where the search split has weights, those
+/// of both are what the dataset's user gave, and only [`OutputError::weighted`] and `visible` heed them.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Score {
-    /// On the search split, unweighted, by output.
     pub search: Vec<OutputError>,
-    /// On the validation split, weighted, by output.
     pub validation: Vec<OutputError>,
+    /// The outputs' units, as [`output_units`] has them.
+    pub units: Vec<f64>,
 }
 
 impl Score {
@@ -36,20 +44,34 @@ impl Score {
         assert_eq!(program.outputs.len(), dataset.outputs.len(), "the dataset's outputs");
         let tape = Tape::new(program);
         let inputs = dataset.inputs.len();
-        let mut errors = |split: &crate::dataset::Split, weight: &dyn Fn(usize) -> f64| {
-            let samples = Samples::new(split, inputs);
-            let values = evaluator.outputs(&tape, &samples);
-            let targets = &split.columns[inputs..];
-            let free = (0..values.len()).map(|o| split.free.get(o).map(Vec::as_slice));
-            let pairs = values.iter().zip(targets).zip(free);
-            pairs.map(|((f, y), free)| output_error(f, y, free, weight)).collect()
+        let is_weighted = !dataset.search.weights.is_empty();
+        let mut errors = |split: &Split| {
+            let values = evaluator.outputs(&tape, &Samples::new(split, inputs));
+            let of = |(output, values): (usize, &Vec<f32>)| {
+                let column = inputs + output;
+                let sampled = Sampled {
+                    targets: &split.columns[column],
+                    floor: relative_floor(&dataset.search.columns[column]),
+                    free: split.free.get(output).map(Vec::as_slice),
+                    split,
+                    is_weighted,
+                };
+                sampled.error(values)
+            };
+            values.iter().enumerate().map(of).collect()
         };
-        Score {
-            search: errors(&dataset.search, &|_| 1.0),
-            validation: errors(&dataset.validation, &|row| {
-                f64::from(dataset.validation.weight(row))
-            }),
-        }
+        let (search, validation) = (errors(&dataset.search), errors(&dataset.validation));
+        Score { search, validation, units: output_units(&dataset.outputs) }
+    }
+
+    /// Over all outputs, on the search split.
+    pub fn joint_search(&self) -> OutputError {
+        joint(&self.search, &self.units)
+    }
+
+    /// Over all outputs, on the validation split.
+    pub fn joint_validation(&self) -> OutputError {
+        joint(&self.validation, &self.units)
     }
 
     /// Whether the program is finite on every sample.
@@ -58,54 +80,92 @@ impl Score {
     }
 }
 
-/// The root mean square of the outputs' RMSEs, and the largest of their maxima.
-pub fn joint(errors: &[OutputError]) -> OutputError {
-    let root_mean = |part: fn(&OutputError) -> f64| {
-        (errors.iter().map(|e| part(e).powi(2)).sum::<f64>() / errors.len() as f64).sqrt()
+/// The root mean square of the outputs' RMSEs, and the largest of their maxima. Where outputs differ in
+/// their units, each one's errors count in its unit, or one would hide all others; else nothing changes.
+fn joint(errors: &[OutputError], units: &[f64]) -> OutputError {
+    let joint = joint_unit(units);
+    let alike = units.iter().all(|unit| *unit == joint);
+    let unit = |output: usize| if alike { 1.0 } else { units[output] };
+    let root_mean = |squares: f64| (squares / errors.len() as f64).sqrt();
+    let mean = |part: &dyn Fn(&OutputError) -> f64| {
+        root_mean(errors.iter().enumerate().map(|(o, e)| (part(e) / unit(o)).powi(2)).sum())
+    };
+    let mean_of_some = |part: fn(&OutputError) -> Option<f64>| {
+        let known = errors.iter().all(|error| part(error).is_some());
+        known.then(|| mean(&|error| part(error).unwrap_or(0.0)))
     };
     OutputError {
-        rmse: root_mean(|e| e.rmse),
-        max: errors.iter().map(|e| e.max).fold(0.0, f64::max),
-        relative: root_mean(|e| e.relative),
-        visible: errors
-            .iter()
-            .all(|e| e.visible.is_some())
-            .then(|| root_mean(|e| e.visible.unwrap_or(0.0))),
+        rmse: mean(&|error| error.rmse),
+        max: errors.iter().enumerate().map(|(o, e)| e.max / unit(o)).fold(0.0, f64::max),
+        relative: root_mean(errors.iter().map(|error| error.relative.powi(2)).sum()),
+        weighted: mean_of_some(|error| error.weighted),
+        visible: mean_of_some(|error| error.visible),
     }
 }
 
 /// The share of an output's largest value below which errors are no longer relative.
-pub const RELATIVE_FLOOR: f64 = 1e-3;
+const RELATIVE_FLOOR: f64 = 1e-3;
 
-fn output_error(
-    values: &[f32],
-    targets: &[f32],
-    free: Option<&[f32]>,
-    weight: &dyn Fn(usize) -> f64,
-) -> OutputError {
+/// The magnitude that an output's values have at least where errors are relative to them, given those of
+/// the search split.
+pub fn relative_floor(targets: &[f32]) -> f64 {
     let largest = targets.iter().fold(f32::MIN_POSITIVE, |largest, y| largest.max(y.abs()));
-    let floor = RELATIVE_FLOOR * f64::from(largest);
-    let (mut squares, mut relative, mut visible) = (0.0, 0.0, 0.0);
-    let (mut weights, mut max) = (0.0, 0.0f64);
-    for (row, (&f, &y)) in values.iter().zip(targets).enumerate() {
-        if !f.is_finite() {
-            let infinite = f64::INFINITY;
-            let visible = free.map(|_| infinite);
-            return OutputError { rmse: infinite, max: infinite, relative: infinite, visible };
+    RELATIVE_FLOOR * f64::from(largest)
+}
+
+/// What an output should be on a split.
+struct Sampled<'a> {
+    targets: &'a [f32],
+    floor: f64,
+    free: Option<&'a [f32]>,
+    split: &'a Split,
+    /// Whether the split's weights are those that the dataset's user gave.
+    is_weighted: bool,
+}
+
+impl Sampled<'_> {
+    fn error(&self, values: &[f32]) -> OutputError {
+        let (mut plain, mut relative) = (Mean::default(), Mean::default());
+        let (mut weighted, mut visible) = (Mean::default(), Mean::default());
+        let mut max = 0.0f64;
+        for (row, (&f, &y)) in values.iter().zip(self.targets).enumerate() {
+            let error = if f.is_finite() { f64::from(f) - f64::from(y) } else { f64::INFINITY };
+            let weight = f64::from(self.split.weight(row));
+            let share = if self.is_weighted { 1.0 } else { weight };
+            let free = self.free.map_or(0.0, |free| f64::from(free[row]));
+            plain.add(share, error);
+            relative.add(share, error / f64::from(y).abs().max(self.floor));
+            weighted.add(weight, error);
+            visible.add(weight, (error.abs() - free).max(0.0));
+            max = max.max(error.abs());
         }
-        let difference = f64::from(f) - f64::from(y);
-        squares += weight(row) * difference.powi(2);
-        relative += weight(row) * (difference / f64::from(y).abs().max(floor)).powi(2);
-        let hidden = free.map_or(0.0, |free| f64::from(free[row]));
-        visible += weight(row) * (difference.abs() - hidden).max(0.0).powi(2);
-        weights += weight(row);
-        max = max.max(difference.abs());
+        OutputError {
+            rmse: plain.root(),
+            max,
+            relative: relative.root(),
+            weighted: self.is_weighted.then(|| weighted.root()),
+            visible: self.free.map(|_| visible.root()),
+        }
     }
-    let root_mean = |sum: f64| (sum / weights).sqrt();
-    OutputError {
-        rmse: root_mean(squares),
-        max,
-        relative: root_mean(relative),
-        visible: free.map(|_| root_mean(visible)),
+}
+
+/// A weighted mean of squares.
+#[derive(Default)]
+struct Mean {
+    squares: f64,
+    weights: f64,
+    is_infinite: bool,
+}
+
+impl Mean {
+    fn add(&mut self, weight: f64, value: f64) {
+        // Infinite also where it weighs nothing.
+        self.is_infinite |= value.is_infinite();
+        self.squares += weight * value.powi(2);
+        self.weights += weight;
+    }
+
+    fn root(&self) -> f64 {
+        if self.is_infinite { f64::INFINITY } else { (self.squares / self.weights).sqrt() }
     }
 }

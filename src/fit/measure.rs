@@ -1,7 +1,7 @@
 //! What is minimised.
 
 use crate::dataset::Split;
-use crate::eval::{OutputError, RELATIVE_FLOOR, Samples};
+use crate::eval::{OutputError, Samples, relative_floor};
 use serde::{Deserialize, Serialize};
 use std::fmt;
 use std::str::FromStr;
@@ -36,55 +36,65 @@ impl Measure {
         }
     }
 
-    /// Samples of some rows of a split, weighted so that what is to be made small is
-    /// their weighted sum of squares.
+    /// Samples of some rows of a split, weighted so that what is to be made small is their weighted sum of
+    /// squares over [`Samples::total_weight`]: its root is the error that [`OutputError::of`] gives, over all
+    /// outputs. Each output's errors count in its unit ([`crate::dataset::output_units`]); in relative errors units cancel.
     ///
     /// # Panics
-    /// As [`Samples::of_rows`].
-    pub fn samples(self, split: &Split, inputs: usize, rows: &[u32]) -> Samples {
+    /// As [`Samples::of_rows`]; if there are fewer units than outputs.
+    pub fn samples(self, split: &Split, inputs: usize, rows: &[u32], units: &[f64]) -> Samples {
         let mut samples = Samples::of_rows(split, inputs, rows);
-        for output in 0..samples.outputs() {
+        let count = (samples.rows() * samples.outputs()) as f64;
+        let total = match self {
+            Measure::Weighted | Measure::Visible => samples.total_weight(),
+            Measure::Rmse | Measure::Max | Measure::Relative => count,
+        };
+        for (output, unit) in units.iter().enumerate().take(samples.outputs()) {
+            let by_unit = (1.0 / unit.clamp(LEAST_UNIT, 1.0 / LEAST_UNIT).powi(2)) as f32;
+            let given = samples.weights(output).iter();
             let weights: Vec<f32> = match self {
-                Measure::Weighted => continue,
-                Measure::Visible => {
-                    if let Some(free) = split.free.get(output) {
-                        let free: Vec<f32> = rows.iter().map(|&row| free[row as usize]).collect();
-                        samples.set_free(output, &free);
-                    }
-                    continue;
-                }
-                Measure::Rmse | Measure::Max => vec![1.0; samples.rows()],
+                Measure::Weighted | Measure::Visible => given.map(|w| w * by_unit).collect(),
+                Measure::Rmse | Measure::Max => vec![by_unit; samples.rows()],
                 Measure::Relative => {
                     relative(samples.targets(output), &split.columns[inputs + output])
                 }
             };
             samples.set_weights(output, &weights);
+            if let (Measure::Visible, Some(free)) = (self, split.free.get(output)) {
+                let free: Vec<f32> = rows.iter().map(|&row| free[row as usize]).collect();
+                samples.set_free(output, &free);
+            }
         }
+        samples.set_total_weight(total);
         samples
     }
 
     /// [`Measure::samples`] of all rows.
-    pub fn all_samples(self, split: &Split, inputs: usize) -> Samples {
+    pub fn all_samples(self, split: &Split, inputs: usize, units: &[f64]) -> Samples {
         let rows: Vec<u32> = (0..split.rows() as u32).collect();
-        self.samples(split, inputs, &rows)
+        self.samples(split, inputs, &rows, units)
     }
 }
 
+/// Weights by units beyond this would leave `f32`.
+const LEAST_UNIT: f64 = 1.0 / (1u64 << 60) as f64;
+
 /// `1 / y²`, floored by the largest value of the whole column.
 fn relative(targets: &[f32], column: &[f32]) -> Vec<f32> {
-    let largest = column.iter().fold(f32::MIN_POSITIVE, |largest, y| largest.max(y.abs()));
-    let weight = |y: &f32| (y.abs().max(RELATIVE_FLOOR as f32 * largest)).powi(-2);
-    targets.iter().map(weight).collect()
+    let floor = relative_floor(column);
+    targets.iter().map(|y| f64::from(y.abs()).max(floor).powi(-2) as f32).collect()
 }
 
 impl OutputError {
-    /// The error in some measure. On the validation split RMSE is weighted as the dataset says already.
+    /// The error in some measure: the very quantity that a search or a fit by it makes small.
     pub fn of(&self, measure: Measure) -> f64 {
+        let weighted = self.weighted.unwrap_or(self.rmse);
         match measure {
-            Measure::Rmse | Measure::Weighted => self.rmse,
+            Measure::Rmse => self.rmse,
             Measure::Max => self.max,
+            Measure::Weighted => weighted,
             Measure::Relative => self.relative,
-            Measure::Visible => self.visible.unwrap_or(self.rmse),
+            Measure::Visible => self.visible.unwrap_or(weighted),
         }
     }
 }

@@ -112,7 +112,7 @@ mod tests {
         let parameters: Vec<Parameter> =
             parsed.free.iter().map(|free| Parameter { index: free.index.into(), bounds }).collect();
         let mut draft = parsed.program.into_draft();
-        let samples = Measure::Rmse.all_samples(&split, 1);
+        let samples = Measure::Rmse.all_samples(&split, 1, &[1.0]);
         let loss = fit_model(&mut draft, &samples, &parameters, measure, 20, 1);
         (loss, draft)
     }

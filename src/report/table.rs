@@ -15,9 +15,8 @@ pub struct Published {
 /// The front by rising cost, each member's formula under its numbers, incumbents where their cost
 /// puts them. Errors are over all outputs; those by output follow where there are several.
 pub fn front_table(front: &Front, incumbents: &[Published], outputs: &[String]) -> String {
-    let hides = |member: &FrontMember| member.search_error().visible.is_some();
     let judged = front.members.iter().any(|member| member.verdict.is_judged());
-    let mut text = heading(outputs, front.members.iter().any(hides), judged);
+    let mut text = heading(outputs, front.measure, judged);
     let mut waiting: Vec<&Published> = incumbents.iter().collect();
     waiting.sort_by(|a, b| a.member.cost.total_cmp(&b.member.cost));
     let mut waiting = waiting.into_iter().peekable();
@@ -25,14 +24,36 @@ pub fn front_table(front: &Front, incumbents: &[Published], outputs: &[String]) 
         while let Some(known) = waiting.next_if(|known| known.member.cost < member.cost) {
             text += &incumbent_row(known, front);
         }
-        let _ = writeln!(text, "{:>4}  {}{}", i + 1, numbers(member), statuses(member));
+        let numbers = numbers(member, front.measure);
+        let _ = writeln!(text, "{:>4}  {numbers}{}", i + 1, statuses(member));
         let _ = writeln!(text, "      {}", member.formula);
     }
     waiting.for_each(|known| text += &incumbent_row(known, front));
+    if front.members.len() + incumbents.len() > 1 {
+        text += &cut(front.measure);
+    }
     text
 }
 
-fn heading(outputs: &[String], hidden: bool, judged: bool) -> String {
+/// By what formulas are on the front or off it.
+pub fn cut(measure: Measure) -> String {
+    let title = axis_title(measure);
+    match measure {
+        Measure::Max => format!(
+            "On the front, and not dominated, is what nothing cheaper equals in {title} on the search split, where it was made small.\n"
+        ),
+        _ => format!(
+            "On the front, and not dominated, is what nothing cheaper equals in {title} on the validation split, which no constant was fitted to; {title} was made small on the search split.\n"
+        ),
+    }
+}
+
+/// Whether a measure is none of those that every table has.
+fn is_own_column(measure: Measure) -> bool {
+    !matches!(measure, Measure::Rmse | Measure::Max)
+}
+
+fn heading(outputs: &[String], measure: Measure, judged: bool) -> String {
     let mut text = format!("{:>4}  {:>6}  {:>8} {:>8}  ", "#", "cycles", "RMSE", "max");
     let _ = write!(text, "{:>8} {:>8}", "val.RMSE", "val.max");
     if outputs.len() > 1 {
@@ -40,8 +61,8 @@ fn heading(outputs: &[String], hidden: bool, judged: bool) -> String {
             let _ = write!(text, "  {:>17}", format!("{output} RMSE, max"));
         }
     }
-    if hidden {
-        let _ = write!(text, "  {:>8}", "visible");
+    if is_own_column(measure) {
+        let _ = write!(text, "  {:>13} {:>13}", title(measure), format!("val. {measure}"));
     }
     text + if judged { "  verdict\n" } else { "\n" }
 }
@@ -68,7 +89,7 @@ fn statuses(member: &FrontMember) -> String {
     format!("  {}", said.join("; "))
 }
 
-fn numbers(member: &FrontMember) -> String {
+fn numbers(member: &FrontMember, measure: Measure) -> String {
     let (search, validation) = (member.search_error(), member.validation_error());
     let mut text = format!(
         "{:>6}  {} {}  {} {}",
@@ -83,8 +104,9 @@ fn numbers(member: &FrontMember) -> String {
             let _ = write!(text, "  {} {}", error(output.rmse), error(output.max));
         }
     }
-    if let Some(visible) = search.visible {
-        let _ = write!(text, "  {}", error(visible));
+    if is_own_column(measure) {
+        let [search, validation] = [search, validation].map(|error| error_text(error.of(measure)));
+        let _ = write!(text, "  {search:>13} {validation:>13}");
     }
     text
 }
@@ -95,12 +117,12 @@ fn incumbent_row(known: &Published, front: &Front) -> String {
             "dominated by {} ({} cycles, {} {})",
             i + 1,
             cycles_text(member.cost),
-            title(front.measure),
-            error_text(member.search_error().of(front.measure))
+            deciding_title(front.measure),
+            error_text(member.deciding_error(front.measure))
         ),
         None => "not dominated".to_owned(),
     };
-    format!("   *  {}\n      {}: {standing}\n", numbers(&known.member), known.name)
+    format!("   *  {}\n      {}: {standing}\n", numbers(&known.member, front.measure), known.name)
 }
 
 /// A measure as tables and plots write it.
@@ -111,6 +133,14 @@ pub fn title(measure: Measure) -> &'static str {
         Measure::Weighted => "weighted RMSE",
         Measure::Relative => "relative RMSE",
         Measure::Visible => "visible RMSE",
+    }
+}
+
+/// The error that decides about a front in this measure.
+fn deciding_title(measure: Measure) -> String {
+    match measure {
+        Measure::Max => title(measure).to_owned(),
+        _ => format!("val. {}", title(measure)),
     }
 }
 

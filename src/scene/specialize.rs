@@ -5,7 +5,7 @@ use super::idle::{Evidence, first_idle};
 use super::removal::{Removal, apart, removals};
 use super::{View, idle};
 use crate::cost::{CostScratch, Profile};
-use crate::dataset::Dataset;
+use crate::dataset::{Dataset, joint_unit, output_units};
 use crate::eval::Samples;
 use crate::fit::{Fitter, Measure, Stop, shorten};
 use crate::op::Op;
@@ -108,6 +108,8 @@ struct Work<'a> {
     profile: &'a Profile,
     all: Samples,
     subset: Samples,
+    /// Of errors over all outputs, by which losses are divided.
+    unit: f64,
     steps: Vec<Step>,
     /// How many of the steps' constants are the formula's own.
     unfitted: usize,
@@ -120,12 +122,14 @@ struct Work<'a> {
 impl<'a> Work<'a> {
     fn new(dataset: &Dataset, profile: &'a Profile, measure: Measure) -> Work<'a> {
         let (split, inputs) = (&dataset.search, dataset.inputs.len());
+        let units = output_units(&dataset.outputs);
         let apart = split.rows().div_ceil(SUBSET).max(1);
         let rows: Vec<u32> = (0..split.rows() as u32).step_by(apart | 1).collect();
         Work {
             profile,
-            all: measure.all_samples(split, inputs),
-            subset: measure.samples(split, inputs, &rows),
+            all: measure.all_samples(split, inputs, &units),
+            subset: measure.samples(split, inputs, &rows, &units),
+            unit: joint_unit(&units),
             steps: Vec::new(),
             unfitted: 0,
             seen: Vec::new(),
@@ -161,7 +165,7 @@ impl<'a> Work<'a> {
             return;
         }
         self.take(Change::Refitted, &current, loss);
-        let most = limit.powi(2) * self.all.total_weight();
+        let most = (limit / self.unit).powi(2) * self.all.total_weight();
         while let Some((removal, fitted_loss)) = self.best_removal(&current, loss) {
             if fitted_loss > most {
                 break;

@@ -76,6 +76,7 @@ fn best_of(structures: &[Draft], problem: &Problem) -> Vec<Member> {
             let rounds = Rounds::TO_CONVERGENCE;
             member.loss = minimax(fitter, &mut member.draft, &problem.all, rounds).powi(2);
         }
+        member.loss = problem.archive_loss(&member.draft, member.loss, &mut fitter.evaluator);
         Some(member).filter(|member| problem.accepts(&member.draft))
     };
     near.into_par_iter().map_init(Fitter::default, finish).flatten().collect()

@@ -4,7 +4,7 @@ use super::polish::{polish, promising};
 use super::{Problem, Search};
 use crate::cost::{Cost, Profile};
 use crate::dataset::Dataset;
-use crate::eval::{Evaluator, OutputError, Score, joint};
+use crate::eval::{Evaluator, OutputError, Score};
 use crate::fit::Measure;
 use crate::program::{Draft, Names, Program, parse, print};
 use crate::stability::{Limits, Questions, Rounding, Stopped, Verdict, VerdictRecord};
@@ -51,24 +51,37 @@ impl FrontMember {
         }
     }
 
-    /// Whether it costs no more than the other and errs no more, on the search split.
+    /// Whether it costs no more than the other and errs no more, where a front in that measure is judged.
     pub fn dominates(&self, other: &FrontMember, measure: Measure) -> bool {
-        let [mine, other_error] = [self, other].map(|member| member.search_error().of(measure));
+        let [mine, other_error] = [self, other].map(|member| member.deciding_error(measure));
         self.cost <= other.cost
             && mine <= other_error
             && (self.cost < other.cost || mine < other_error)
     }
 
+    /// What decides whether it is on a front: the error on the validation split, which formulas were not
+    /// fitted to; but the maximum error where it was made small, on the search split.
+    pub fn deciding_error(&self, measure: Measure) -> f64 {
+        match measure {
+            Measure::Max => self.search_error().max,
+            _ => self.validation_error().of(measure),
+        }
+    }
+
     /// Over all outputs, on the search split.
     pub fn search_error(&self) -> OutputError {
-        joint(&self.score.search)
+        self.score.joint_search()
     }
 
     /// Over all outputs, on the validation split.
     pub fn validation_error(&self) -> OutputError {
-        joint(&self.score.validation)
+        self.score.joint_validation()
     }
 }
+
+/// An error smaller than that of the cheapest member by more than this counts as none where logarithms are
+/// compared.
+const LEAST_ERROR: f64 = 1e-9;
 
 /// Formulas by rising cost, none dominated in cost and error: the validation split's, but for the
 /// maximum error, which is judged where it was made small.
@@ -140,10 +153,7 @@ impl Front {
 
     /// Keeps the members that are not dominated.
     pub fn from_members(mut members: Vec<FrontMember>, measure: Measure) -> Front {
-        let key = |member: &FrontMember| match measure {
-            Measure::Max => member.search_error().max,
-            _ => member.validation_error().of(measure),
-        };
+        let key = |member: &FrontMember| member.deciding_error(measure);
         members.sort_by(|a, b| {
             a.cost
                 .total_cmp(&b.cost)
@@ -174,8 +184,10 @@ impl Front {
     /// error: past it, cycles buy less.
     pub fn knee(&self) -> Option<&FrontMember> {
         let (first, last) = (self.members.first()?, self.members.last()?);
-        let height =
-            |member: &FrontMember| member.validation_error().of(self.measure).max(1e-30).ln();
+        let least = first.deciding_error(self.measure) * LEAST_ERROR;
+        let height = |member: &FrontMember| {
+            member.deciding_error(self.measure).max(least).max(f64::MIN_POSITIVE).ln()
+        };
         let slope = (height(last) - height(first)) / (last.cost - first.cost).max(1.0);
         let gain = |member: &FrontMember| {
             height(first) + slope * (member.cost - first.cost) - height(member)

@@ -230,6 +230,7 @@ impl Island {
         if by_maximum {
             loss = levelled(fitter, candidate, &problem.all, wanted);
         }
+        let loss = problem.archive_loss(candidate, loss, &mut fitter.evaluator);
         if problem.checks.hold(candidate, &mut fitter.evaluator) {
             self.archive.offer(Member { cost, loss, draft: candidate.clone() });
         }

@@ -116,12 +116,13 @@ mod tests {
         };
         let names = Names::new(["x"], ["y"]);
         let member = |&(cost, rmse, formula): &(f64, f64, &str)| {
-            let errors = vec![OutputError { rmse, max: rmse, relative: rmse, visible: None }];
+            let (weighted, visible) = (None, None);
+            let errors = vec![OutputError { rmse, max: rmse, relative: rmse, weighted, visible }];
             FrontMember {
                 program: parse(formula, &names).unwrap(),
                 cost,
                 registers: None,
-                score: Score { search: errors.clone(), validation: errors },
+                score: Score { search: errors.clone(), validation: errors, units: vec![1.0] },
                 verdict: VerdictRecord::default(),
                 formula: formula.into(),
             }

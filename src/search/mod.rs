@@ -31,15 +31,15 @@ pub use transform::Transform;
 
 use crate::archive::Archive;
 use crate::cost::{CostScratch, Profile};
-use crate::dataset::{Dataset, Split};
-use crate::eval::Samples;
+use crate::dataset::{Dataset, Split, joint_unit, output_units};
+use crate::eval::{Evaluator, Samples, Tape};
 use crate::fit::Measure;
 use crate::grammar::Grammar;
-use crate::program::{Constants, Draft, structural_hash};
+use crate::program::{Constants, Draft, Program, structural_hash};
 use island::Island;
 use population::Individual;
 use rayon::prelude::*;
-use require::{Checks, with_ends};
+use require::Checks;
 use serde::{Deserialize, Serialize};
 use std::collections::HashSet;
 
@@ -101,6 +101,12 @@ pub struct Problem<'a> {
     transforms: Vec<Option<Transform>>,
     all: Samples,
     subset: Samples,
+    /// All samples without those that only hold formulas to an end; none where there are none.
+    without_ends: Option<Samples>,
+    /// What the best constant's loss is.
+    constant_loss: f64,
+    /// Of errors over all outputs: losses are mean squares in it.
+    unit: f64,
 }
 
 impl<'a> Problem<'a> {
@@ -116,25 +122,32 @@ impl<'a> Problem<'a> {
         settings: &Settings,
     ) -> Problem<'a> {
         let inputs = dataset.inputs.len();
-        let (split, measure) = with_ends(dataset, &settings.requirements, settings.measure);
+        let measure = settings.measure;
         let mut rows = spread_rows(dataset.search.rows(), settings.subset);
-        if settings.measure == Measure::Max {
+        if measure == Measure::Max {
             let edges = edge_rows(&dataset.search, inputs);
             let chosen = spread_rows(edges.len(), settings.subset);
             rows.extend(chosen.into_iter().map(|place| edges[place as usize]));
             rows.sort_unstable();
             rows.dedup();
         }
-        rows.extend(dataset.search.rows() as u32..split.rows() as u32);
+        let checks = Checks::new(&settings.requirements, dataset);
+        let units = output_units(&dataset.outputs);
+        let plain = measure.all_samples(&dataset.search, inputs, &units);
+        let all_rows: Vec<u32> = (0..dataset.search.rows() as u32).collect();
+        let all = checks.samples(dataset, measure, &all_rows);
         Problem {
             dataset,
             grammar,
             profile,
-            measure: settings.measure,
-            checks: Checks::new(&settings.requirements, dataset),
+            measure,
             transforms: settings.transforms.clone(),
-            all: measure.all_samples(&split, inputs),
-            subset: measure.samples(&split, inputs, &rows),
+            subset: checks.samples(dataset, measure, &rows),
+            constant_loss: constant_loss(&plain, measure),
+            without_ends: (all.rows() > plain.rows()).then_some(plain),
+            all,
+            checks,
+            unit: if measure == Measure::Relative { 1.0 } else { joint_unit(&units) },
         }
     }
 
@@ -143,8 +156,30 @@ impl<'a> Problem<'a> {
         if measure == self.measure {
             return self.all.clone();
         }
-        let (split, measure) = with_ends(self.dataset, self.checks.requirements(), measure);
-        measure.all_samples(&split, self.dataset.inputs.len())
+        let rows: Vec<u32> = (0..self.dataset.search.rows() as u32).collect();
+        self.checks.samples(self.dataset, measure, &rows)
+    }
+
+    /// The error over all outputs that a loss stands for, as [`FrontMember::search_error`] shows it.
+    pub fn error(&self, loss: f64) -> f64 {
+        loss.sqrt() * self.unit
+    }
+
+    /// The loss of a draft that was fitted to all samples, which came to `fitted`.
+    fn archive_loss(&self, draft: &Draft, fitted: f64, evaluator: &mut Evaluator) -> f64 {
+        let Some(samples) = &self.without_ends else { return fitted };
+        let Ok(program) = Program::verify(draft.clone()) else { return f64::INFINITY };
+        let loss = evaluator.loss(&Tape::new(&program), samples, f64::INFINITY);
+        match self.measure {
+            Measure::Max => {
+                let largest = |output: usize| {
+                    f64::from(loss.max_error[output]).powi(2)
+                        * f64::from(samples.weights(output)[0])
+                };
+                (0..samples.outputs()).map(largest).fold(0.0, f64::max)
+            }
+            _ => loss.total() * self.scale(),
+        }
     }
 
     /// The outputs that are searched for through a function of them.
@@ -166,6 +201,29 @@ impl<'a> Problem<'a> {
     /// The same for the subset.
     fn subset_scale(&self) -> f64 {
         1.0 / self.subset.total_weight()
+    }
+}
+
+/// The loss of the constants that err least, one for each output.
+fn constant_loss(samples: &Samples, measure: Measure) -> f64 {
+    let of = |output: usize| {
+        let pairs = || samples.targets(output).iter().zip(samples.weights(output));
+        let weighted = |f: &dyn Fn(f64) -> f64| -> f64 {
+            pairs().map(|(y, w)| f64::from(*w) * f(f64::from(*y))).sum()
+        };
+        if measure == Measure::Max {
+            let ends = (f32::INFINITY, f32::NEG_INFINITY);
+            let (low, high) = pairs().fold(ends, |(low, high), (y, _)| (low.min(*y), high.max(*y)));
+            let unit = f64::from(samples.weights(output)[0]);
+            return ((f64::from(high) - f64::from(low)) / 2.0).powi(2) * unit;
+        }
+        let mean = weighted(&|y| y) / weighted(&|_| 1.0);
+        weighted(&|y| (y - mean).powi(2))
+    };
+    let losses = (0..samples.outputs()).map(of);
+    match measure {
+        Measure::Max => losses.fold(0.0, f64::max),
+        _ => losses.sum::<f64>() / samples.total_weight(),
     }
 }
 

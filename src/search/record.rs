@@ -1,8 +1,8 @@
 //! What a run leaves on disk, and how it is read back: `run.ron`, `front.json`, `trace.csv`,
 //! `checkpoint.bin`.
 
-use super::{Counts, Enumeration, Front, FrontMember, Search, Settings};
-use crate::dataset::{Column, Dataset, replace_file};
+use super::{Counts, Enumeration, Front, FrontMember, Problem, Search, Settings};
+use crate::dataset::{Column, Dataset, output_units, replace_file};
 use crate::eval::{OutputError, Score};
 use crate::fit::Measure;
 use crate::program::{Names, parse};
@@ -97,15 +97,19 @@ impl MemberRecord {
         }
     }
 
-    fn into_member(self, names: &Names) -> Result<FrontMember, String> {
+    fn into_member(self, run: &Run) -> Result<FrontMember, String> {
+        let names = &run.names();
         let program = parse(&self.formula, names).map_err(|error| error.to_string())?;
         let errors = |map: &BTreeMap<String, OutputError>| {
             let of = |name: &String| map.get(name).copied();
             let errors: Option<Vec<_>> = names.outputs.iter().map(of).collect();
             errors.ok_or_else(|| "an output's errors are missing".to_owned())
         };
-        let score =
-            Score { search: errors(&self.errors)?, validation: errors(&self.validation_errors)? };
+        let score = Score {
+            search: errors(&self.errors)?,
+            validation: errors(&self.validation_errors)?,
+            units: output_units(&run.outputs),
+        };
         Ok(FrontMember {
             program,
             cost: self.cost,
@@ -125,13 +129,13 @@ impl Front {
     }
 
     /// Reads `front.json` or `front-max.json` of a run's folder, in the measure that it was made in.
-    pub fn load(path: &Path, names: &Names, measure: Measure) -> Result<Front, RecordError> {
+    pub fn load(path: &Path, run: &Run, measure: Measure) -> Result<Front, RecordError> {
         let damaged = |line, reason| RecordError::Damaged { path: path.to_owned(), line, reason };
         let text = read(path)?;
         let records: Vec<MemberRecord> = serde_json::from_str(&text)
             .map_err(|error| damaged(error.line(), error.to_string()))?;
         let members: Result<Vec<_>, String> =
-            records.into_iter().map(|record| record.into_member(names)).collect();
+            records.into_iter().map(|record| record.into_member(run)).collect();
         Ok(Front { measure, members: members.map_err(|reason| damaged(1, reason))? })
     }
 }
@@ -188,12 +192,14 @@ pub const TRACE_COSTS: [f64; 9] = [5.0, 8.0, 10.0, 12.0, 16.0, 20.0, 25.0, 30.0,
 
 impl Search {
     /// Where the search stands after some seconds.
-    pub fn trace_point(&self, seconds: f64) -> TracePoint {
+    pub fn trace_point(&self, problem: &Problem, seconds: f64) -> TracePoint {
         TracePoint {
             seconds,
             counts: self.counts(),
-            hypervolume: self.archive().hypervolume(self.settings().max_cost, 1.0),
-            errors: TRACE_COSTS.map(|cost| self.archive().best_loss(cost).sqrt()),
+            hypervolume: self
+                .archive()
+                .hypervolume(self.settings().max_cost, problem.constant_loss),
+            errors: TRACE_COSTS.map(|cost| problem.error(self.archive().best_loss(cost))),
         }
     }
 

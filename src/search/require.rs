@@ -2,7 +2,7 @@
 //! and over the whole domain before a formula is shown.
 
 use super::Problem;
-use crate::dataset::{Dataset, Split};
+use crate::dataset::{Dataset, Split, output_units};
 use crate::eval::{Evaluator, Samples, Tape, Values};
 use crate::fit::Measure;
 use crate::grammar::Grammar;
@@ -38,10 +38,10 @@ pub enum Requirement {
 /// How far a value may be off where it must be exact.
 const EXACT: f32 = 1e-5;
 
-/// What the samples at the ends weigh, against 1 for others; more where it is the maximum error that counts,
+/// What the samples at the ends weigh, against others in the mean; more where it is the maximum error that counts,
 /// by which all become alike.
-const WEIGHT_OF_ENDS: f32 = 1e4;
-const WEIGHT_OF_ENDS_BY_MAXIMUM: f32 = 1e7;
+const WEIGHT_OF_ENDS: f64 = 1e4;
+const WEIGHT_OF_ENDS_BY_MAXIMUM: f64 = 1e7;
 
 /// Steps over an input's domain, between the ends of which a monotone output is compared, and the rounding
 /// that is forgiven.
@@ -141,8 +141,43 @@ pub(super) struct Checks {
 }
 
 impl Checks {
-    pub fn requirements(&self) -> &[Requirement] {
-        &self.requirements
+    /// Rows of the search split, laid out for a measure; and at the ends that must be exact both splits' rows,
+    /// weighing more. A mean is still that of the rows asked for.
+    pub fn samples(&self, dataset: &Dataset, measure: Measure, rows: &[u32]) -> Samples {
+        let (inputs, units) = (dataset.inputs.len(), output_units(&dataset.outputs));
+        let ends = self.rows_at_ends(dataset);
+        if ends.is_empty() {
+            return measure.samples(&dataset.search, inputs, rows, &units);
+        }
+        let split = with_rows(&dataset.search, &both_splits(dataset), &ends);
+        let plain = rows.len();
+        let at_ends = dataset.search.rows() as u32..split.rows() as u32;
+        let rows: Vec<u32> = rows.iter().copied().chain(at_ends).collect();
+        let mut samples = measure.samples(&split, inputs, &rows, &units);
+        let weight_of_ends = match measure {
+            Measure::Max => WEIGHT_OF_ENDS_BY_MAXIMUM,
+            _ => WEIGHT_OF_ENDS,
+        };
+        let total = samples.total_weight() - (ends.len() * dataset.outputs.len()) as f64;
+        for output in 0..samples.outputs() {
+            let mut weights = samples.weights(output).to_vec();
+            let (plain, at_ends) = weights.split_at_mut(plain);
+            let mean = plain.iter().map(|w| f64::from(*w)).sum::<f64>() / plain.len() as f64;
+            at_ends.fill((mean * weight_of_ends) as f32);
+            samples.set_weights(output, &weights);
+        }
+        samples.set_total_weight(total);
+        samples
+    }
+
+    /// The rows of both splits, one after the other, whose values are required.
+    fn rows_at_ends(&self, dataset: &Dataset) -> Vec<u32> {
+        let inputs = self.requirements.iter().filter_map(|requirement| match *requirement {
+            Requirement::Ends { input, .. } => Some(input),
+            _ => None,
+        });
+        let whole = both_splits(dataset);
+        inputs.flat_map(|input| rows_at_ends(&whole, dataset, input)).collect()
     }
 
     pub fn new(requirements: &[Requirement], dataset: &Dataset) -> Checks {
@@ -325,41 +360,18 @@ fn samples_for(requirement: &Requirement, dataset: &Dataset) -> Vec<Samples> {
     }
 }
 
-/// The search split, and at the ends that must be exact the validation split's rows, weighing more; and the
-/// measure by which such samples are laid out.
-pub(super) fn with_ends(
-    dataset: &Dataset,
-    requirements: &[Requirement],
-    measure: Measure,
-) -> (Split, Measure) {
-    let mut split = dataset.search.clone();
-    let at_ends = |requirement: &Requirement| match *requirement {
-        Requirement::Ends { input, .. } => Some(input),
-        _ => None,
-    };
-    let inputs: Vec<u16> = requirements.iter().filter_map(at_ends).collect();
-    if inputs.is_empty() {
-        return (split, measure);
+/// A split with some rows of another after its own; none of their errors are free, and they weigh one.
+fn with_rows(split: &Split, other: &Split, rows: &[u32]) -> Split {
+    let mut extended = Split { grid: Vec::new(), ..split.clone() };
+    for (to, from) in extended.columns.iter_mut().zip(&other.columns) {
+        to.extend(rows.iter().map(|&row| from[row as usize]));
     }
-    let weighs = matches!(measure, Measure::Weighted | Measure::Visible);
-    let weight = |row| if weighs { dataset.search.weight(row) } else { 1.0 };
-    split.weights = (0..split.rows()).map(weight).collect();
-    split.grid.clear();
-    let whole = both_splits(dataset);
-    let weight_of_ends = match measure {
-        Measure::Max => WEIGHT_OF_ENDS_BY_MAXIMUM,
-        _ => WEIGHT_OF_ENDS,
-    };
-    for row in inputs.into_iter().flat_map(|input| rows_at_ends(&whole, dataset, input)) {
-        for (to, from) in split.columns.iter_mut().zip(&whole.columns) {
-            to.push(from[row as usize]);
-        }
-        split.weights.push(weight_of_ends);
-        split.free.iter_mut().for_each(|free| free.push(0.0));
+    let length = extended.rows();
+    extended.free.iter_mut().for_each(|free| free.resize(length, 0.0));
+    if !extended.weights.is_empty() {
+        extended.weights.resize(length, 1.0);
     }
-    // The ends count by weight.
-    let visible = measure == Measure::Visible;
-    (split, if visible { measure } else { Measure::Weighted })
+    extended
 }
 
 fn rows_at_ends(split: &Split, dataset: &Dataset, input: u16) -> Vec<u32> {

@@ -96,8 +96,7 @@ pub fn front() -> Vec<Case> {
         parts.concat()
     };
     let split = Split { columns: (0..run.inputs.len()).map(both).collect(), ..Split::default() };
-    let members =
-        Front::load(&folder.join("front.json"), &run.names(), Measure::Rmse).unwrap().members;
+    let members = Front::load(&folder.join("front.json"), &run, Measure::Rmse).unwrap().members;
     assert!(members.len() >= 20);
     let cases = members.into_iter().enumerate().map(|(i, member)| {
         Case::new(i, format!("member {}", i + 1), member.program, run.names(), &split)

@@ -4,7 +4,9 @@ use super::{check_whole, content};
 use crate::cli::run_folder::{self, Which};
 use crate::cli::{Exit, Failure, output};
 use crate::dataset::replace_file;
+use crate::fit::Measure;
 use crate::report::page::{self, ComparedRun, Comparison, Group};
+use crate::report::table::axis_title;
 use crate::search::{Run, TRACE_COSTS};
 use std::path::{Path, PathBuf};
 
@@ -16,8 +18,9 @@ pub(super) fn write(folders: &[PathBuf], path: &Path) -> Result<usize, Failure> 
         check_whole(folder)?;
         let (run, front) = run_folder::load(folder, Which { minimax: false })?;
         let members = front.members.iter().map(|member| {
-            let error = member.search_error();
-            [member.cost, error.rmse, error.max]
+            let errors =
+                measures(&run).into_iter().map(|measure| member.search_error().of(measure));
+            [member.cost].into_iter().chain(errors).collect()
         });
         let compared = ComparedRun {
             seconds: run.seconds,
@@ -39,12 +42,20 @@ pub(super) fn write(folders: &[PathBuf], path: &Path) -> Result<usize, Failure> 
         ),
         gpu: first.gpu.clone(),
         costs: TRACE_COSTS.to_vec(),
+        measures: measures(&first).into_iter().map(axis_title).collect(),
         same_budget: runs.iter().all(|(run, _)| run.settings.max_cost == first.settings.max_cost),
         groups: groups(runs),
     };
     let html = page::comparison(&comparison);
     replace_file(path, html.as_bytes()).map_err(|error| Failure::unwritable(path, error))?;
     Ok(html.len())
+}
+
+/// What the run made small, and the usual measures.
+fn measures(run: &Run) -> Vec<Measure> {
+    let own = run.settings.measure;
+    let usual = [Measure::Rmse, Measure::Max].into_iter().filter(|one| *one != own);
+    [own].into_iter().chain(usual).collect()
 }
 
 /// Errors and cycles must be of the same data and GPU.

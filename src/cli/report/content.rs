@@ -9,7 +9,7 @@ use crate::emit::{self, Language, Snippet};
 use crate::eval::OutputError;
 use crate::fit::Measure;
 use crate::report::page::{self, Axis, Code, Formula, Page, PageFront, PageSpheres, Table, Trace};
-use crate::report::table::Published;
+use crate::report::table::{Published, axis_title, cut};
 use crate::search::{Front, FrontMember, RecordError, Run};
 use std::path::Path;
 
@@ -84,8 +84,9 @@ impl Priced<'_> {
     fn front(&self, front: &Front) -> PageFront {
         let knee = front.knee().and_then(|knee| front.members.iter().position(|m| m == knee));
         PageFront {
-            measure: if front.measure == Measure::Max { "max" } else { "rmse" },
-            title: if front.measure == Measure::Max { "maximum error" } else { "RMSE" }.to_owned(),
+            measure: front.measure.to_string(),
+            title: axis_title(front.measure).to_owned(),
+            cut: cut(front.measure).trim_end().to_owned(),
             option: if front.measure == Measure::Max { "--minimax" } else { "" },
             members: front.members.iter().map(|member| self.member(member)).collect(),
             knee: knee.unwrap_or(0),
@@ -126,14 +127,15 @@ impl Priced<'_> {
         let snippet = Snippet { program, names: &names, function: &self.run.name, header: &[] };
         let costs: Vec<_> = self.profiles.iter().map(|profile| profile.cost(program)).collect();
         let measured = self.timings.iter().map(|timing| timing.of(&member.formula));
-        let both = |error: &OutputError| [error.rmse, error.max];
+        let of = self.run.settings.measure;
+        let errors = |error: &OutputError| [error.rmse, error.max, error.of(of)];
         Formula {
             name: None,
             costs: costs.iter().map(|cost| Some(cost.cycles)).chain(measured).collect(),
             registers: costs.iter().map(|cost| Some(cost.registers)).collect(),
-            errors: member.score.search.iter().map(both).collect(),
-            error: both(&member.search_error()),
-            validation: both(&member.validation_error()),
+            errors: member.score.search.iter().map(errors).collect(),
+            error: errors(&member.search_error()),
+            validation: errors(&member.validation_error()),
             verdict: serde_json::Value::Null,
             formula: member.formula.clone(),
             header: Vec::new(),

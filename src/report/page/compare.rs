@@ -14,6 +14,8 @@ pub struct Comparison {
     pub gpu: String,
     /// Cycles at which errors are listed.
     pub costs: Vec<f64>,
+    /// The errors that formulas have; the first is what is shown at first.
+    pub measures: Vec<&'static str>,
     /// Whether all may spend the same cycles: only then do hypervolumes compare.
     pub same_budget: bool,
     pub groups: Vec<Group>,
@@ -31,8 +33,8 @@ pub struct Group {
 pub struct ComparedRun {
     pub seconds: f64,
     pub considered: u64,
-    /// Cost, RMSE and maximum error of each member.
-    pub front: Vec<[f64; 3]>,
+    /// Each member's cost, and its errors by each of [`Comparison::measures`].
+    pub front: Vec<Vec<f64>>,
     pub trace: Option<Trace>,
 }
 

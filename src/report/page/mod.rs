@@ -57,9 +57,11 @@ pub struct Axis {
 /// A front, and the measure that it is of.
 #[derive(Clone, Debug, Serialize)]
 pub struct PageFront {
-    /// `rmse` or `max`.
-    pub measure: &'static str,
+    /// As `--loss` takes it.
+    pub measure: String,
     pub title: String,
+    /// By what formulas are on it or off it.
+    pub cut: String,
     /// What `lgp emit` and `lgp front` are told to take it.
     pub option: &'static str,
     pub members: Vec<Formula>,
@@ -75,11 +77,11 @@ pub struct Formula {
     /// By profile; null where it was not measured.
     pub costs: Vec<Option<f64>>,
     pub registers: Vec<Option<u32>>,
-    /// RMSE and maximum, by output, on the search split.
-    pub errors: Vec<[f64; 2]>,
+    /// RMSE, maximum, and what the search made small, by output, on the search split.
+    pub errors: Vec<[f64; 3]>,
     /// Over all outputs.
-    pub error: [f64; 2],
-    pub validation: [f64; 2],
+    pub error: [f64; 3],
+    pub validation: [f64; 3],
     /// As `front.json` has it; null of published formulas.
     pub verdict: serde_json::Value,
     pub formula: String,

@@ -11,7 +11,11 @@ const front = () => data.fronts[state.front];
 const formulas = () => (state.published ? data.published : front().members);
 const formula = () => formulas()[state.index];
 const script = () => (state.published ? FUNCTIONS.published : FUNCTIONS.fronts[state.front])[state.index];
-const measure = () => (front().measure === "max" ? 1 : 0);
+/** The place of the front's measure among a formula's errors; the third is that of no other column. */
+const MEASURES = ["rmse", "max"];
+const measure = () => (MEASURES.includes(front().measure) ? MEASURES.indexOf(front().measure) : 2);
+/** What the search made small, where it is neither RMSE nor the maximum. */
+const ownMeasure = MEASURES.includes(data.fronts[0].measure) ? null : data.fronts[0].title;
 const measureTitle = () => front().title;
 const axis = () => data.profiles[state.axis];
 const nameOf = (one, i) => one.name ?? `formula ${i + 1}`;

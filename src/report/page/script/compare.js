@@ -51,7 +51,7 @@ function drawFronts() {
   const costs = Array.from({ length: most + 1 }, (_, i) => i);
   const groups = data.groups.map(({ runs }) => band(runs, costs, errorAt));
   const errors = groups.flat().flatMap((p) => [p[2], p[3]]);
-  drawBands(byId("fronts"), linear(0, most), logarithmicOver(errors), `cycles (${data.gpu})`, `${["RMSE", "maximum error"][shown.measure]}, search split`, groups, true);
+  drawBands(byId("fronts"), linear(0, most), logarithmicOver(errors), `cycles (${data.gpu})`, `${data.measures[shown.measure]}, search split`, groups, true);
 }
 
 function drawTimes() {
@@ -84,7 +84,7 @@ function drawComparison() {
 const keys = Object.keys(UNITS);
 function showAll() { drawFronts(); drawTimes(); drawComparison(); }
 byId("controls").append(
-  choice("error", ["RMSE", "maximum error"], 0, (i) => { shown.measure = i; showAll(); }),
+  choice("error", data.measures, 0, (i) => { shown.measure = i; showAll(); }),
   choice("against", Object.values(UNITS), 0, (i) => { shown.time = keys[i]; drawTimes(); }),
   choice("cycles", data.costs.map((cost) => `≤ ${cost}`), shown.cost, (i) => { shown.cost = i; drawTimes(); }),
 );

@@ -47,9 +47,10 @@ function costTable(one) {
 }
 
 function errorTable(one) {
-  const row = (name, [rmse, max]) => html("tr", {}, html("td", {}, name), html("td", {}, errorText(rmse)), html("td", {}, errorText(max)));
+  const titles = ["RMSE", "max", ...(ownMeasure ? [ownMeasure] : [])];
+  const row = (name, errors) => html("tr", {}, html("td", {}, name), titles.map((_, i) => html("td", {}, errorText(errors[i]))));
   return html("div", { class: "scroll" }, html("table", { class: "numbers" },
-    html("tr", {}, html("th", {}, "error"), html("th", {}, "RMSE"), html("th", {}, "max")),
+    html("tr", {}, html("th", {}, "error"), titles.map((title) => html("th", {}, title))),
     row("search split", one.error), row("validation split", one.validation),
     data.outputs.length > 1 ? data.outputs.map((output, o) => row(output.name, one.errors[o])) : null));
 }
@@ -68,6 +69,10 @@ const COLUMNS = [
   { key: "max", title: "max", of: (one) => one.error[1], text: (one) => errorText(one.error[1]) },
   { key: "validation", title: "validation RMSE", of: (one) => one.validation[0], text: (one) => errorText(one.validation[0]) },
   { key: "validation_max", title: "validation max", of: (one) => one.validation[1], text: (one) => errorText(one.validation[1]) },
+  ...(ownMeasure ? [
+    { key: "own", title: ownMeasure, of: (one) => one.error[2], text: (one) => errorText(one.error[2]) },
+    { key: "validation_own", title: `validation ${ownMeasure}`, of: (one) => one.validation[2], text: (one) => errorText(one.validation[2]) },
+  ] : []),
   { key: "verdict", title: "verdict", of: (one) => JSON.stringify(one.verdict), text: (one) => Object.entries(one.verdict ?? {}).filter(([, v]) => v && v.status).map(([k, v]) => `${k} ${v.status}`).join(", ") || "–" },
   { key: "formula", title: "formula", of: (one) => one.formula.length, text: (one) => one.formula },
 ];

@@ -103,7 +103,7 @@ function pickNearest(root, marks) {
     root.style.cursor = mark ? "pointer" : "";
     if (!mark) return tip("");
     const one = (mark.published ? data.published : front().members)[mark.i];
-    tip(`${nameOf(one, mark.i)}: ${costText(one.costs[state.axis])} ${axis().unit}\nRMSE ${errorText(one.error[0])}, max ${errorText(one.error[1])}`, event);
+    tip(`${nameOf(one, mark.i)}: ${costText(one.costs[state.axis])} ${axis().unit}\n${ownMeasure ? `${ownMeasure} ${errorText(one.error[2])}, ` : ""}RMSE ${errorText(one.error[0])}, max ${errorText(one.error[1])}`, event);
   });
   root.addEventListener("pointerleave", () => tip(""));
   root.addEventListener("click", (event) => {
@@ -117,5 +117,6 @@ function drawKey(published, tables) {
   const items = [[sample(svg("path", { class: "staircase", d: "M0 6H22" }), svg("circle", { class: "member", cx: 11, cy: 6, r: 4.5 })), `Pareto front in ${measureTitle()}`]];
   if (published) items.push([sample(svg("path", { class: "published", d: diamond(11, 6, 6) })), "published formulas"]);
   if (tables) items.push([sample(svg("path", { class: "texture", d: "M0 6H22" })), "a texture of so many texels, read with linear filtering"]);
+  byId("front-cut").textContent = front().cut;
   byId("front-key").replaceChildren(...items.map(([mark, text]) => html("span", {}, mark, text)));
 }

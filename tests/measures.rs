@@ -1,0 +1,131 @@
+//! One error under one name: what a search makes small is what is shown of what it finds, in every measure.
+
+use lgp::cost::Profile;
+use lgp::dataset::{Column, Dataset, Split};
+use lgp::fit::Measure;
+use lgp::grammar::Grammar;
+use lgp::program::{Names, Program};
+use lgp::report::table::{Published, front_table};
+use lgp::search::{Front, FrontMember, Problem, Requirement, Search, Settings};
+
+/// Two outputs, the second `scale` times as large; weights that favour large inputs, and free errors.
+fn dataset(scale: f32) -> Dataset {
+    let split = |rows: u32, offset: f32| {
+        let xs: Vec<f32> = (0..rows).map(|i| (i as f32 + offset) / rows as f32).collect();
+        let column = |f: &dyn Fn(f32) -> f32| -> Vec<f32> { xs.iter().map(|&x| f(x)).collect() };
+        let outputs = [column(&|x| 0.2 + (3.0 * x).sin()), column(&|x| scale * (x * x + 0.1))];
+        let weights = column(&|x| 0.05 + 4.0 * x * x);
+        let free = vec![column(&|x| 0.02 * x), column(&|x| 0.02 * scale * (1.0 - x))];
+        let columns = [xs].into_iter().chain(outputs).collect();
+        Split { columns, weights, free, grid: Vec::new() }
+    };
+    let column =
+        |name: &str, high: f64| Column { name: name.into(), unit: "1".into(), domain: [0.0, high] };
+    Dataset {
+        name: "two".into(),
+        recipe: "sin(3x), x²".into(),
+        inputs: vec![column("x", 1.0)],
+        outputs: vec![column("wave", 1.2), column("square", 1.1 * f64::from(scale))],
+        search: split(120, 0.0),
+        validation: split(77, 0.5),
+    }
+}
+
+fn searched<'a>(
+    data: &'a Dataset,
+    grammar: &'a Grammar,
+    gpu: &'a Profile,
+    settings: Settings,
+) -> (Search, Problem<'a>) {
+    let problem = Problem::new(data, grammar, gpu, &settings);
+    let mut search = Search::new(settings);
+    (0..4).for_each(|_| search.advance(&problem));
+    (search, problem)
+}
+
+#[test]
+fn an_archives_loss_is_the_error_shown_in_every_measure() {
+    let (grammar, gpu) = (Grammar::find("shader").unwrap(), Profile::find("gcn").unwrap());
+    for scale in [1.0, 1024.0, 1e6] {
+        let data = dataset(scale);
+        for measure in Measure::ALL {
+            let settings = Settings {
+                measure,
+                islands: 3,
+                candidates: 60,
+                max_cost: 12.0,
+                ..Settings::default()
+            };
+            let (search, problem) = searched(&data, &grammar, &gpu, settings);
+            let mut compared = 0;
+            for member in search.archive().members() {
+                let program = Program::verify(member.draft.clone()).unwrap();
+                let shown = FrontMember::new(program, &data, &gpu, &data.names());
+                let shown = shown.search_error().of(measure);
+                let searched = problem.error(member.loss);
+                assert!(
+                    (shown - searched).abs() <= 1e-4 * searched + 1e-6,
+                    "{measure}, {scale}: {shown} {searched}"
+                );
+                compared += usize::from(shown > 1e-3);
+            }
+            assert!(compared >= 3, "{measure}, {scale}: {compared}");
+        }
+    }
+}
+
+/// The samples that hold a formula to an end are no part of the error.
+#[test]
+fn what_is_required_of_ends_is_no_part_of_the_error() {
+    let (grammar, gpu) = (Grammar::find("polynomial").unwrap(), Profile::find("gcn").unwrap());
+    let data = dataset(1.0).select(None, Some(&["square".to_owned()])).unwrap();
+    for measure in [Measure::Rmse, Measure::Max, Measure::Weighted, Measure::Visible] {
+        let settings = Settings {
+            measure,
+            islands: 3,
+            max_cost: 6.0,
+            requirements: vec![Requirement::Ends { output: None, input: 0 }],
+            ..Settings::default()
+        };
+        let (search, problem) = searched(&data, &grammar, &gpu, settings);
+        assert!(!search.archive().members().is_empty(), "{measure}");
+        for member in search.archive().members() {
+            let program = Program::verify(member.draft.clone()).unwrap();
+            let shown = FrontMember::new(program, &data, &gpu, &data.names());
+            let shown = shown.search_error().of(measure);
+            let searched = problem.error(member.loss);
+            assert!(
+                (shown - searched).abs() <= 1e-4 * searched + 1e-6,
+                "{measure}: {shown} {searched}"
+            );
+        }
+    }
+}
+
+/// Of a front in any measure: its table has that measure's column, and published formulas are judged where
+/// the front is.
+#[test]
+fn a_table_shows_and_judges_by_what_was_made_small() {
+    let gpu = Profile::find("gcn").unwrap();
+    let data = dataset(1.0).select(None, Some(&["wave".to_owned()])).unwrap();
+    let names: Names = data.names();
+    let member = |text: &str| {
+        let program = lgp::program::parse(text, &names).unwrap();
+        FrontMember::new(program, &data, &gpu, &names)
+    };
+    // The first fits where weights are small, the second where they are large.
+    let (left, right) = (member("wave = 0.2 + 2.7*x"), member("wave = 1.9 - 1.6*x"));
+    for (measure, better) in [(Measure::Weighted, &right), (Measure::Visible, &right)] {
+        let worse = if better == &right { &left } else { &right };
+        assert!(better.dominates(worse, measure) && !worse.dominates(better, measure));
+        let front = Front::from_members(vec![better.clone()], measure);
+        let known = Published { name: "known".into(), member: worse.clone() };
+        let table = front_table(&front, &[known], &names.outputs);
+        let error = lgp::report::table::error_text(better.validation_error().of(measure));
+        let judged = format!("dominated by 1 (1 cycles, val. {measure} RMSE {error})");
+        assert!(table.contains(&judged), "{judged}\n{table}");
+        assert!(table.contains(&format!("{measure} RMSE")), "{table}");
+    }
+    let rmse = |member: &FrontMember| member.search_error().rmse;
+    assert!(rmse(&left) != left.search_error().of(Measure::Weighted), "weights matter here");
+}
