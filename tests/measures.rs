@@ -59,7 +59,7 @@ fn an_archives_loss_is_the_error_shown_in_every_measure() {
             let (search, problem) = searched(&data, &grammar, &gpu, settings);
             let mut compared = 0;
             for member in search.archive().members() {
-                let program = Program::verify(member.draft.clone()).unwrap();
+                let program = Program::verify(problem.natural(&member.draft).into_owned()).unwrap();
                 let shown = FrontMember::new(program, &data, &gpu, &data.names());
                 let shown = shown.search_error().of(measure);
                 let searched = problem.error(member.loss);

@@ -10,7 +10,7 @@ use crate::report::examination::at_most;
 use crate::report::plot::{self, FrontPlot, PlotError, Theme};
 use crate::report::table::{Published, axis_title, cycles_text, error_text, front_table, title};
 use crate::report::verdict::{number_text, verdict_lines};
-use crate::search::{Census, Front, FrontMember, Run, Search, TracePoint, trace_csv};
+use crate::search::{Census, Front, FrontMember, Problem, Run, Search, TracePoint, trace_csv};
 use crate::stability::half_loss;
 use std::collections::BTreeSet;
 use std::ffi::OsStr;
@@ -62,20 +62,20 @@ impl PartialRun {
         &mut self,
         point: TracePoint,
         search: &Search,
-        dataset: &Dataset,
+        problem: &Problem,
         so_far: impl FnOnce() -> Run,
     ) -> Result<(), Failure> {
         // Later on little changes: points a twentieth apart are enough.
         let enough = self.trace.last().is_none_or(|last| point.seconds >= last.seconds * 1.05);
         if enough {
-            let names = dataset.names();
+            let names = problem.dataset.names();
             for member in search.archive().members() {
-                self.census.count(&member.draft, &names, point.seconds);
+                self.census.count(&problem.natural(&member.draft), &names, point.seconds);
             }
             self.trace.push(point);
         }
         if self.last_checkpoint.elapsed() >= CHECKPOINT_INTERVAL {
-            self.checkpoint(&so_far(), search, dataset)?;
+            self.checkpoint(&so_far(), search, problem.dataset)?;
             self.last_checkpoint = Instant::now();
         }
         Ok(())

@@ -149,7 +149,7 @@ pub fn run(args: &Args, common: &Common) -> Result<(), Failure> {
     let seconds =
         evolve(args, common, &mut search, &problem, before, &interrupted, |point, search| {
             let seconds = point.seconds;
-            partial.record(point, search, dataset, || describe(search, seconds))
+            partial.record(point, search, &problem, || describe(search, seconds))
         })?;
     let front = Front::of(&search, &problem);
     let minimax = match front.measure {

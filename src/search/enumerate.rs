@@ -52,7 +52,7 @@ impl Search {
         for member in members {
             self.archive.offer(member);
         }
-        self.settle(&drafts, problem);
+        self.settle_searched(&drafts, problem);
         self.enumeration = Some(Enumeration { cost, structures: structures.len() });
     }
 

@@ -188,7 +188,7 @@ impl Island {
         self.counts.fitted += 1;
         let admission = self.population.admission(&workshop.candidate, cost);
         let loss = workshop.race(problem, admission, self.by_maximum)?;
-        if problem.checks.hold(&workshop.candidate, &mut workshop.fitter.evaluator) {
+        if problem.holds(&workshop.candidate, &mut workshop.fitter.evaluator) {
             return Ok(Individual { draft: workshop.candidate.clone(), cost, loss, hash });
         }
         self.clamped(problem).ok_or(Fate::Unfulfilled)
@@ -197,7 +197,7 @@ impl Island {
     /// Clamped outputs may be the cheapest way to what is required.
     fn clamped(&mut self, problem: &Problem) -> Option<Individual> {
         let Workshop { fitter, cost: scratch, candidate, .. } = &mut self.workshop;
-        *candidate = problem.checks.clamped(candidate, problem.grammar)?;
+        *candidate = problem.clamped(candidate)?;
         if !problem.admits(candidate) || candidate.instrs.len() > problem.grammar.max_instructions {
             return None;
         }
@@ -207,7 +207,7 @@ impl Island {
         if loss < admission && self.by_maximum {
             loss = levelled(fitter, candidate, &problem.subset, admission);
         }
-        let fulfils = loss < admission && problem.checks.hold(candidate, &mut fitter.evaluator);
+        let fulfils = loss < admission && problem.holds(candidate, &mut fitter.evaluator);
         let hash = self.workshop.structure();
         let draft = &self.workshop.candidate;
         fulfils.then(|| Individual { draft: draft.clone(), cost, loss, hash })
@@ -231,7 +231,7 @@ impl Island {
             loss = levelled(fitter, candidate, &problem.all, wanted);
         }
         let loss = problem.archive_loss(candidate, loss, &mut fitter.evaluator);
-        if problem.checks.hold(candidate, &mut fitter.evaluator) {
+        if problem.holds(candidate, &mut fitter.evaluator) {
             self.archive.offer(Member { cost, loss, draft: candidate.clone() });
         }
     }

@@ -18,6 +18,7 @@ mod polish;
 mod population;
 mod record;
 mod require;
+mod scales;
 mod transform;
 mod vary;
 
@@ -36,11 +37,14 @@ use crate::eval::{Evaluator, Samples, Tape};
 use crate::fit::Measure;
 use crate::grammar::Grammar;
 use crate::program::{Constants, Draft, Program, structural_hash};
+use crate::simplify::Placement;
 use island::Island;
 use population::Individual;
 use rayon::prelude::*;
 use require::Checks;
+use scales::Scales;
 use serde::{Deserialize, Serialize};
+use std::borrow::Cow;
 use std::collections::HashSet;
 
 /// What decides the course of a search, given its problem.
@@ -94,6 +98,10 @@ impl Default for Settings {
 #[derive(Clone, Debug)]
 pub struct Problem<'a> {
     pub dataset: &'a Dataset,
+    /// The dataset over the columns that are searched ([`scales`]).
+    searched: Cow<'a, Dataset>,
+    /// How those columns are scaled; none if they are the dataset's own.
+    scales: Option<Scales>,
     pub grammar: &'a Grammar,
     pub profile: &'a Profile,
     measure: Measure,
@@ -123,9 +131,14 @@ impl<'a> Problem<'a> {
     ) -> Problem<'a> {
         let inputs = dataset.inputs.len();
         let measure = settings.measure;
+        let scales = Some(Scales::of(dataset)).filter(|scales| !scales.are_natural());
+        let searched = match &scales {
+            Some(scales) => Cow::Owned(scales.scaled(dataset)),
+            None => Cow::Borrowed(dataset),
+        };
         let mut rows = spread_rows(dataset.search.rows(), settings.subset);
         if measure == Measure::Max {
-            let edges = edge_rows(&dataset.search, inputs);
+            let edges = edge_rows(&searched.search, inputs);
             let chosen = spread_rows(edges.len(), settings.subset);
             rows.extend(chosen.into_iter().map(|place| edges[place as usize]));
             rows.sort_unstable();
@@ -133,16 +146,20 @@ impl<'a> Problem<'a> {
         }
         let checks = Checks::new(&settings.requirements, dataset);
         let units = output_units(&dataset.outputs);
-        let plain = measure.all_samples(&dataset.search, inputs, &units);
+        let searched_units = output_units(&searched.outputs);
+        let plain = measure.all_samples(&searched.search, inputs, &searched_units);
         let all_rows: Vec<u32> = (0..dataset.search.rows() as u32).collect();
-        let all = checks.samples(dataset, measure, &all_rows);
+        let all = checks.samples(&searched, measure, &all_rows);
+        let subset = checks.samples(&searched, measure, &rows);
         Problem {
             dataset,
+            searched,
+            scales,
             grammar,
             profile,
             measure,
             transforms: settings.transforms.clone(),
-            subset: checks.samples(dataset, measure, &rows),
+            subset,
             constant_loss: constant_loss(&plain, measure),
             without_ends: (all.rows() > plain.rows()).then_some(plain),
             all,
@@ -157,7 +174,7 @@ impl<'a> Problem<'a> {
             return self.all.clone();
         }
         let rows: Vec<u32> = (0..self.dataset.search.rows() as u32).collect();
-        self.checks.samples(self.dataset, measure, &rows)
+        self.checks.samples(&self.searched, measure, &rows)
     }
 
     /// The error over all outputs that a loss stands for, as [`FrontMember::search_error`] shows it.
@@ -188,9 +205,36 @@ impl<'a> Problem<'a> {
         each.filter_map(|(output, transform)| Some((output, (*transform)?)))
     }
 
-    /// Cycles and penalties.
+    /// Cycles and penalties of the formula that a draft of the search becomes.
     fn cost(&self, draft: &Draft, scratch: &mut CostScratch) -> f64 {
-        self.profile.cycles(draft, scratch) + self.grammar.penalty(draft)
+        self.natural_and_cost(draft, scratch).1
+    }
+
+    /// A draft of the search as one over the dataset's columns.
+    pub fn natural<'d>(&self, draft: &'d Draft) -> Cow<'d, Draft> {
+        self.natural_and_cost(draft, &mut CostScratch::default()).0
+    }
+
+    fn natural_and_cost<'d>(
+        &self,
+        draft: &'d Draft,
+        scratch: &mut CostScratch,
+    ) -> (Cow<'d, Draft>, f64) {
+        let mut cost =
+            |draft: &Draft| self.profile.cycles(draft, scratch) + self.grammar.penalty(draft);
+        let Some(scales) = &self.scales else { return (Cow::Borrowed(draft), cost(draft)) };
+        let [first, in_constants] =
+            [Placement::First, Placement::Constants].map(|place| scales.natural(draft, place));
+        let costs = [cost(&first), cost(&in_constants)];
+        match costs[0] < costs[1] {
+            true => (Cow::Owned(first), costs[0]),
+            false => (Cow::Owned(in_constants), costs[1]),
+        }
+    }
+
+    /// A draft over the dataset's columns as one of the search.
+    fn over_searched(&self, draft: &Draft) -> Draft {
+        self.scales.as_ref().map_or_else(|| draft.clone(), |scales| scales.searched(draft))
     }
 
     /// What turns a sum of squares over all samples and outputs into a mean.
@@ -375,7 +419,8 @@ impl Search {
         &self.settings
     }
 
-    /// The best found so far, on the whole search split.
+    /// The best found so far, on the whole search split; [`Problem::natural`] makes formulas of its drafts, and
+    /// [`Problem::error`] errors of its losses.
     pub fn archive(&self) -> &Archive {
         &self.archive
     }
@@ -448,8 +493,13 @@ impl Search {
         });
     }
 
-    /// Starts every island with drafts from elsewhere.
+    /// Starts every island with drafts from elsewhere, over the dataset's columns.
     pub fn settle(&mut self, drafts: &[Draft], problem: &Problem) {
+        let drafts: Vec<Draft> = drafts.iter().map(|draft| problem.over_searched(draft)).collect();
+        self.settle_searched(&drafts, problem);
+    }
+
+    fn settle_searched(&mut self, drafts: &[Draft], problem: &Problem) {
         for island in &mut self.islands {
             for draft in drafts {
                 island.settle(draft, problem);

@@ -41,7 +41,7 @@ pub(super) fn polish(
     }
     finished(&draft, problem, names, measure).or_else(|| {
         // What leaves its range is brought into it, if that is all that is wrong.
-        let clamped = problem.checks.clamped(&draft, problem.grammar)?;
+        let clamped = problem.clamped(&draft)?;
         finished(&clamped, problem, names, measure)
     })
 }
@@ -59,6 +59,7 @@ fn finished(
     simplifier.simplify(draft, &mut simple);
     let guarded = guarded(&simple, problem);
     let finished = [draft.clone(), simple].into_iter().chain(guarded).filter_map(|draft| {
+        let draft = problem.natural(&draft).into_owned();
         let active = without_idle(Program::verify(draft).ok()?, &problem.dataset.inputs);
         let mut program = effective(&tidy(&active));
         if reads_only_constants(&program) {

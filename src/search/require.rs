@@ -2,7 +2,7 @@
 //! and over the whole domain before a formula is shown.
 
 use super::Problem;
-use crate::dataset::{Dataset, Split, output_units};
+use crate::dataset::{Column, Dataset, Split, output_units};
 use crate::eval::{Evaluator, Samples, Tape, Values};
 use crate::fit::Measure;
 use crate::grammar::Grammar;
@@ -35,8 +35,8 @@ pub enum Requirement {
     Half { error: f64 },
 }
 
-/// How far a value may be off where it must be exact.
-const EXACT: f32 = 1e-5;
+/// How far a value may be off where it must be exact, of the output's largest magnitude.
+const EXACT: f64 = 1e-5;
 
 /// What the samples at the ends weigh, against others in the mean; more where it is the maximum error that counts,
 /// by which all become alike.
@@ -44,9 +44,9 @@ const WEIGHT_OF_ENDS: f64 = 1e4;
 const WEIGHT_OF_ENDS_BY_MAXIMUM: f64 = 1e7;
 
 /// Steps over an input's domain, between the ends of which a monotone output is compared, and the rounding
-/// that is forgiven.
+/// that is forgiven, of the output's largest magnitude.
 const STEPS: f64 = 64.0;
-const ROUNDING: f32 = 1e-6;
+const ROUNDING: f64 = 1e-6;
 
 impl Requirement {
     /// Reads `finite`, `range=0..1`, `half=1e-2`, `rising=INPUT`, `falling=INPUT`, `ends=INPUT`,
@@ -138,6 +138,8 @@ pub(super) struct Checks {
     samples: Vec<Vec<Samples>>,
     /// Inputs at which half precision is tried.
     few_points: Vec<Vec<f32>>,
+    /// By output: the largest value that occurs.
+    magnitudes: Vec<f64>,
 }
 
 impl Checks {
@@ -186,7 +188,10 @@ impl Checks {
         let inputs = &dataset.search.columns[..dataset.inputs.len()];
         let point = |row| inputs.iter().map(|column| column[row]).collect();
         let few_points = (0..rows).step_by(rows.div_ceil(FEW_ROWS).max(1)).map(point).collect();
-        Checks { samples: samples.collect(), requirements: requirements.to_vec(), few_points }
+        let largest = |column: &Column| column.domain.iter().fold(0.0, |m, end| end.abs().max(m));
+        let magnitudes = dataset.outputs.iter().map(largest).collect();
+        let samples = samples.collect();
+        Checks { samples, requirements: requirements.to_vec(), few_points, magnitudes }
     }
 
     /// Whether a formula is built as required; its values are not looked at.
@@ -227,16 +232,22 @@ impl Checks {
                 }
                 (&Requirement::Monotone { output, rising, .. }, [here, further]) => {
                     let (here, further) = (values(here), values(further));
-                    let ordered = |(a, b): (&f32, &f32)| match rising {
-                        true => *b >= a - ROUNDING,
-                        false => *b <= a + ROUNDING,
-                    };
-                    holds(output, &|o| here.column(o).iter().zip(further.column(o)).all(ordered))
+                    holds(output, &|o| {
+                        let rounding = (ROUNDING * self.magnitudes[o]) as f32;
+                        let ordered = |(a, b): (&f32, &f32)| match rising {
+                            true => *b >= a - rounding,
+                            false => *b <= a + rounding,
+                        };
+                        here.column(o).iter().zip(further.column(o)).all(ordered)
+                    })
                 }
                 (&Requirement::Ends { output, .. }, [samples]) => {
                     let values = values(samples);
-                    let exact = |(f, y): (&f32, &f32)| (f - y).abs() <= EXACT;
-                    holds(output, &|o| values.column(o).iter().zip(samples.targets(o)).all(exact))
+                    holds(output, &|o| {
+                        let most = (EXACT * self.magnitudes[o]) as f32;
+                        let exact = |(f, y): (&f32, &f32)| (f - y).abs() <= most;
+                        values.column(o).iter().zip(samples.targets(o)).all(exact)
+                    })
                 }
                 (&Requirement::Finite, [samples]) => {
                     let values = values(samples);
@@ -398,14 +409,36 @@ impl Problem<'_> {
             && self.transforms().all(|(output, transform)| transform.is_undone(draft, output))
     }
 
-    /// Whether a formula is as required, as far as samples show it.
-    pub(super) fn accepts(&self, draft: &Draft) -> bool {
-        self.admits(draft) && self.checks.hold(draft, &mut Evaluator::default())
+    /// Whether a draft of the search has values as required, as far as samples show it.
+    pub(super) fn holds(&self, draft: &Draft, evaluator: &mut Evaluator) -> bool {
+        self.checks.hold(&self.natural(draft), evaluator)
     }
 
-    /// Whether a formula that is to be shown is as required, wherever its inputs are in the domain.
+    /// Whether a draft of the search is as required, as far as samples show it.
+    pub(super) fn accepts(&self, draft: &Draft) -> bool {
+        self.admits(draft) && self.holds(draft, &mut Evaluator::default())
+    }
+
+    /// [`Checks::clamped`] of a draft of the search.
+    pub(super) fn clamped(&self, draft: &Draft) -> Option<Draft> {
+        let clamped = self.checks.clamped(&self.natural(draft), self.grammar)?;
+        Some(self.over_searched(&clamped))
+    }
+
+    /// Whether a formula over the dataset's columns, which is to be shown, is as required, wherever its inputs
+    /// are in the domain.
     pub(super) fn shows(&self, program: &Program) -> bool {
-        self.accepts(program) && self.checks.stand(program, self.dataset)
+        self.checks.admits(program)
+            && self.grammar.allows_nesting(program)
+            && self.ends_are_kept(program)
+            && self.checks.hold(program, &mut Evaluator::default())
+            && self.checks.stand(program, self.dataset)
+    }
+
+    /// Whether transformed outputs still end in the inverse; where columns are scaled, a factor may follow it.
+    fn ends_are_kept(&self, program: &Draft) -> bool {
+        self.scales.is_some()
+            || self.transforms().all(|(o, transform)| transform.is_undone(program, o))
     }
 
     /// What is asked of each formula that is shown.

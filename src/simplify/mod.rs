@@ -5,9 +5,11 @@
 //! Constants are taken as free: `(x + c₁) + c₂` becomes `x + c₃`. Rounding may change,
 //! so whoever needs the value evaluates the result; nothing is promised bit for bit.
 
+mod rescale;
 mod rules;
 mod tidy;
 
+pub use rescale::{InputScale, Placement, rescaled};
 pub use tidy::tidy;
 
 use crate::op::{MAX_ARITY, Op};

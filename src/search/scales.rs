@@ -1,0 +1,116 @@
+//! Columns as a search sees them: none is larger than a natural magnitude, and none far from zero for its
+//! spread.
+//!
+//! First constants, steps of fits and sums of squares are all of order one, and in 380 … 830 nanometres or 1e9
+//! they would hit nothing but by luck. So inputs and outputs that are not of a natural magnitude are divided by a power of two,
+//! and inputs that lie far from zero are centred before; formulas are searched for over those, and costed and
+//! shown over the columns as they are. A power of two rounds nothing: in whatever unit the data
+//! come, the search is the same.
+
+use crate::dataset::{Column, Dataset, Split, output_units, unit};
+use crate::program::Draft;
+use crate::simplify::{InputScale, Placement, rescaled};
+
+/// How far from zero an input's values lie, in half their spread, if they are centred.
+const FAR: f64 = 4.0;
+
+/// An input is `centre + unit · scaled`.
+#[derive(Clone, Copy, Debug, PartialEq)]
+struct Input {
+    centre: f32,
+    unit: f64,
+}
+
+impl Input {
+    fn of(column: &Column) -> Input {
+        let [low, high] = column.domain;
+        let (middle, half) = ((low + high) / 2.0, (high - low) / 2.0);
+        if half == 0.0 || middle.abs() < FAR * half {
+            return Input { centre: 0.0, unit: unit(column) };
+        }
+        // Near the middle, with few digits: the difference is exact.
+        let step = half.log2().floor().exp2();
+        let centre = ((middle / step).round() * step) as f32;
+        let spread = Column {
+            domain: [low - f64::from(centre), high - f64::from(centre)],
+            ..column.clone()
+        };
+        Input { centre, unit: unit(&spread) }
+    }
+
+    fn scaled(&self, x: f32) -> f32 {
+        (f64::from(x - self.centre) / self.unit) as f32
+    }
+}
+
+/// How the columns of a dataset are scaled.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct Scales {
+    inputs: Vec<Input>,
+    outputs: Vec<f64>,
+}
+
+fn exponent(unit: f64) -> i32 {
+    unit.log2().round() as i32
+}
+
+impl Scales {
+    pub fn of(dataset: &Dataset) -> Scales {
+        Scales {
+            inputs: dataset.inputs.iter().map(Input::of).collect(),
+            outputs: output_units(&dataset.outputs),
+        }
+    }
+
+    /// Whether all columns are searched as they are.
+    pub fn are_natural(&self) -> bool {
+        let natural = |input: &Input| *input == Input { centre: 0.0, unit: 1.0 };
+        self.inputs.iter().all(natural) && self.outputs.iter().all(|unit| *unit == 1.0)
+    }
+
+    /// The dataset as it is searched.
+    pub fn scaled(&self, dataset: &Dataset) -> Dataset {
+        let mut scaled = dataset.clone();
+        for split in [&mut scaled.search, &mut scaled.validation] {
+            self.scale_split(split);
+        }
+        for (column, input) in scaled.inputs.iter_mut().zip(&self.inputs) {
+            column.domain = column.domain.map(|end| f64::from(input.scaled(end as f32)));
+        }
+        for (column, unit) in scaled.outputs.iter_mut().zip(&self.outputs) {
+            column.domain = column.domain.map(|end| end / unit);
+        }
+        scaled
+    }
+
+    fn scale_split(&self, split: &mut Split) {
+        let (inputs, outputs) = split.columns.split_at_mut(self.inputs.len());
+        for (column, input) in inputs.iter_mut().zip(&self.inputs) {
+            column.iter_mut().for_each(|x| *x = input.scaled(*x));
+        }
+        for columns in [outputs, &mut split.free] {
+            for (column, unit) in columns.iter_mut().zip(&self.outputs) {
+                column.iter_mut().for_each(|y| *y = (f64::from(*y) / unit) as f32);
+            }
+        }
+    }
+
+    /// A formula over scaled columns as one over the columns as they are.
+    pub fn natural(&self, draft: &Draft, placement: Placement) -> Draft {
+        let input =
+            |input: &Input| InputScale { offset: -input.centre, exponent: exponent(input.unit) };
+        let outputs: Vec<i32> = self.outputs.iter().map(|unit| exponent(*unit)).collect();
+        rescaled(draft, &self.inputs.iter().map(input).collect::<Vec<_>>(), &outputs, placement)
+    }
+
+    /// A formula over the columns as they are as one over scaled columns.
+    pub fn searched(&self, draft: &Draft) -> Draft {
+        let input = |input: &Input| InputScale {
+            offset: (f64::from(input.centre) / input.unit) as f32,
+            exponent: -exponent(input.unit),
+        };
+        let outputs: Vec<i32> = self.outputs.iter().map(|unit| -exponent(*unit)).collect();
+        let inputs: Vec<InputScale> = self.inputs.iter().map(input).collect();
+        rescaled(draft, &inputs, &outputs, Placement::Constants)
+    }
+}
