@@ -12,7 +12,9 @@ pub fn points_in(domain: &[Interval]) -> Vec<Vec<f32>> {
 /// `2^-finest` of the width. Of a side that is a point, that point.
 pub(super) fn axes(domain: &[Interval], total: usize, finest: u32) -> Vec<Vec<f32>> {
     let sides = domain.iter().filter(|side| side.low() < side.high()).count().max(1);
-    let count = (total as f64).powf(1.0 / sides as f64).floor().clamp(3.0, 257.0) as usize;
+    // Where they are too many to be all visited, as they are with three each, there may be more.
+    let least = if sides > MOST.ilog(3) as usize { 17.0 } else { 3.0 };
+    let count = (total as f64).powf(1.0 / sides as f64).floor().clamp(least, 257.0) as usize;
     domain.iter().map(|&side| axis(side, count, finest)).collect()
 }
 

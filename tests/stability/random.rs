@@ -116,5 +116,7 @@ fn many_inputs_are_looked_at_in_bounded_work() {
     };
     let examination = Examination::of(&program, &questions, 1e-2);
     assert!(!examination.half_tried.exhaustive);
-    assert!(examination.half.absolute.is_some() && !examination.extremes.is_empty());
+    assert!(!examination.extremes.is_empty());
+    // Halves of forty numbers, most of which need all their digits, are not summed exactly.
+    assert!(examination.half.absolute.unwrap().absolute() > 0.02);
 }
