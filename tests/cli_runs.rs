@@ -175,7 +175,11 @@ fn what_recurs_is_shown_of_the_front_and_of_the_run() {
     std::fs::write(here.join("run1/census.json"), "{").unwrap();
     let damaged = lgp(here, &["analyze", "run1"]);
     assert_eq!(damaged.status.code(), Some(3));
-    assert!(text(&damaged.stderr).contains("census.json, line 1"), "{}", text(&damaged.stderr));
+    assert!(
+        text(&damaged.stderr).contains("census.json: not the file"),
+        "{}",
+        text(&damaged.stderr)
+    );
 }
 
 /// A run on 64 rows of a function of one input.

@@ -72,8 +72,9 @@ fn a_run_on_a_scene_knows_it() {
     std::fs::write(here.join("scenes/dielectric.ron"), "(ranges: {\"roughness\": (0, 0.5)})")
         .unwrap();
     assert_eq!(done(here, &["front", run.to_str().unwrap()]), table);
-    refused(here, &[&search[..], &["--resume"]].concat(), "other data");
-    refused(here, &[&SHORT[..], &["--resume", "--out", "runs/dfg_dielectric"]].concat(), "scene");
+    let changed = "--scene dielectric, not dielectric as it is now";
+    refused(here, &[&search[..], &["--resume"]].concat(), changed);
+    done(here, &["search", "--resume", "--generations", "9", "--out", "runs/dfg_dielectric"]);
 }
 
 #[test]

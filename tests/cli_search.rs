@@ -195,7 +195,7 @@ fn bad_input_is_refused_and_nothing_is_written() {
         (&["search", "dfg.bin", "--time", "soon"], 2, "60s"),
         (&["search", "dfg.bin", "--guess", "bias = n_dot"], 3, "n_dot_v"),
         (&["search", "dfg.bin", "--out", "file/run"], 1, "file/run"),
-        (&["search", "dfg.bin", "--out", "new", "--resume"], 3, "run.ron"),
+        (&["search", "dfg.bin", "--out", "new", "--resume"], 3, "no such folder"),
         (&["front", "nowhere"], 3, "no such folder"),
         (&["front", "."], 3, "run.ron"),
         (&["emit", ".", "--lang", "hlls"], 2, "hlsl"),

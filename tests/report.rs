@@ -95,7 +95,9 @@ fn sixty_members_on_a_grid_of_64_by_64_are_less_than_3_mb() {
         let path = folder.path().join(file);
         let members: Vec<Value> =
             serde_json::from_str(&std::fs::read_to_string(&path).unwrap()).unwrap();
-        let sixty: Vec<&Value> = members.iter().rev().cycle().take(60).collect();
+        let mut sixty: Vec<&Value> = members.iter().rev().cycle().take(60).collect();
+        let cost = |member: &Value| member["cost"].as_f64().unwrap();
+        sixty.sort_by(|a, b| cost(a).total_cmp(&cost(b)));
         std::fs::write(&path, serde_json::to_string(&sixty).unwrap()).unwrap();
     }
     assert!(report(&folder, &[]).status.success());

@@ -7,7 +7,9 @@ use lgp::fit::{Fitter, Measure, Stop};
 use lgp::grammar::Grammar;
 use lgp::num::Interval;
 use lgp::program::{Names, Program, Scope, parse, parse_template};
-use lgp::search::{Front, FrontMember, Problem, Requirement, Search, Settings, Transform};
+use lgp::search::{
+    Census, Checkpoint, Front, FrontMember, Problem, Requirement, Run, Search, Settings, Transform,
+};
 use lgp::stability::{half_error, points_in};
 
 fn dataset(name: &str, outputs: &[&str]) -> Dataset {
@@ -219,13 +221,16 @@ fn goes_on_as_if_never_stopped(settings: Settings) {
     let grammar = Grammar::find("shader").unwrap();
     let profile = Profile::find("gcn").unwrap();
     let problem = Problem::new(&data, &grammar, &profile, &settings);
-    let folder = tempfile::tempdir().unwrap();
-    let mut search = Search::new(settings);
+    let mut search = Search::new(settings.clone());
     for _ in 0..4 {
         search.advance(&problem);
     }
-    search.save(folder.path(), &data).unwrap();
-    let mut resumed = Search::load(folder.path(), &data).unwrap();
+    let (inputs, outputs) = (data.inputs.clone(), data.outputs.clone());
+    let run = Run { inputs, outputs, settings, ..Run::default() };
+    let checkpoint =
+        Checkpoint { run, search: search.clone(), trace: String::new(), census: Census::default() };
+    let bytes = checkpoint.to_bytes();
+    let mut resumed = Checkpoint::from_bytes("checkpoint.bin".as_ref(), &bytes).unwrap().search;
     for search in [&mut search, &mut resumed] {
         for _ in 0..5 {
             search.advance(&problem);

@@ -49,7 +49,7 @@ struct Variable {
 pub fn run(args: &Args, common: &Common) -> Result<(), Failure> {
     let (run, front) = run_folder::load(&args.run, Which::default())?;
     let names = run.names();
-    let through = Census::load(&args.run)?;
+    let through = Census::load(&args.run, &run)?;
     let mut census = Census::default();
     for member in &front.members {
         census.count(&member.program, &names, run.seconds);

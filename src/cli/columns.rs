@@ -15,6 +15,16 @@ pub struct Columns {
 }
 
 impl Columns {
+    /// The inputs that were asked for, as one text.
+    pub fn inputs(&self) -> Option<String> {
+        self.inputs.as_ref().map(|names| names.join(","))
+    }
+
+    /// The outputs that were asked for, as one text.
+    pub fn outputs(&self) -> Option<String> {
+        self.outputs.as_ref().map(|names| names.join(","))
+    }
+
     /// The dataset with only the columns chosen.
     pub fn of(&self, dataset: &Dataset) -> Result<Dataset, Failure> {
         Ok(dataset.select(self.inputs.as_deref(), self.outputs.as_deref())?)

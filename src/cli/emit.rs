@@ -4,6 +4,7 @@ use crate::emit::Language;
 use crate::num::Interval;
 use crate::program::Names;
 use crate::report::examination::expression;
+use crate::report::table::{cycles_text, error_text};
 use crate::report::verdict::number_text;
 use crate::search::{Front, FrontMember, Run};
 use crate::stability::{Questions, Unheld, must_stay_single, unheld};
@@ -167,14 +168,41 @@ fn pick<'a>(args: &Args, run: &Run, front: &'a Front) -> Result<&'a FrontMember,
     let unmet = |message: String| Failure::new(Exit::Unmet, anyhow::Error::msg(message));
     if args.max_cost.is_some() || args.max_error.is_some() {
         return front.within(args.max_cost, args.max_error).ok_or_else(|| {
-            let (cost, error) = (args.max_cost.unwrap_or(f64::INFINITY), args.max_error.unwrap_or(f64::INFINITY));
-            unmet(format!("no formula of the front costs at most {cost} cycles with an error of at most {error}; search longer, or ask for less"))
+            let limit =
+                |limit: Option<f64>, what: &str| limit.map(|limit| format!("{what} {limit}"));
+            let limits = [
+                limit(args.max_cost, "cycles of at most"),
+                limit(args.max_error, "an error of at most"),
+            ];
+            let limits: Vec<String> = limits.into_iter().flatten().collect();
+            unmet(format!(
+                "no formula of the front has {}; {}",
+                limits.join(" and "),
+                least(args, front)
+            ))
         });
     }
     if let Some(tier) = &args.tier {
         return tiers::pick(run, front, tier);
     }
     numbered(front, args.pick.as_deref())
+}
+
+/// What comes nearest to the limits that no member is within.
+fn least(args: &Args, front: &Front) -> String {
+    let Some(best) = front.within(args.max_cost, None) else {
+        let cheapest = front.members.first().map_or("the front is empty".to_owned(), |member| {
+            format!("the cheapest has {} cycles", cycles_text(member.cost))
+        });
+        return format!("{cheapest}; ask for less");
+    };
+    let error = error_text(best.search_error().of(front.measure));
+    let within = args.max_cost.map(|cost| format!(" within {} cycles", cycles_text(cost)));
+    format!(
+        "the least error there is{} is {error}, at {} cycles; search longer, or ask for less",
+        within.unwrap_or_default(),
+        cycles_text(best.cost)
+    )
 }
 
 /// The member of a number in the table, or the knee.

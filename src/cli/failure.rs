@@ -101,6 +101,7 @@ impl From<RecordError> for Failure {
     fn from(error: RecordError) -> Failure {
         match error {
             RecordError::Unwritable { path, reason } => Failure::unwritable(&path, reason),
+            error @ RecordError::Busy { .. } => Failure::new(Exit::Failed, error),
             error => Failure::new(Exit::Input, error),
         }
     }

@@ -82,7 +82,7 @@ pub fn run(args: &Args, common: &Common) -> Result<(), Failure> {
         let value = &mut draft.consts[parameter.index];
         *value = value.clamp(low, high);
     }
-    let loss = fit_model(&mut draft, &samples, &parameters, measure, args.starts, common.seed);
+    let loss = fit_model(&mut draft, &samples, &parameters, measure, args.starts, common.seed());
     if !loss.is_finite() {
         let message = "the model is not finite on every sample from any start; give others by --start, or --bounds";
         return Err(Failure::new(Exit::Input, anyhow::Error::msg(message)));

@@ -1,11 +1,10 @@
 use super::run_folder::{self, Which};
 use super::subject::Subject;
 use super::{Common, Failure, tiers};
-use crate::cost::Profile;
 use crate::report::table::{Published, front_table};
 use crate::search::{Front, MemberRecord, Run};
 use crate::stability::Questions;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 /// Show the front of a run as a table, published formulas beside it
 #[derive(clap::Args)]
@@ -17,25 +16,26 @@ pub struct Args {
 }
 
 pub fn run(args: &Args, common: &Common) -> Result<(), Failure> {
-    let (run, mut front) = run_folder::load(&args.run, args.which)?;
+    let (mut run, mut front) = run_folder::load(&args.run, args.which)?;
     count_registers(&run, &mut front);
     let names = run.names();
     front.judge(&Questions::of(&run.inputs, &run.outputs), &names);
     let records: Vec<_> = front.members.iter().map(|m| MemberRecord::new(m, &names)).collect();
-    let table = front_table(&front, &incumbents(&run).unwrap_or_default(), &names.outputs)
-        + &tiers::table(&run, &front);
+    let table =
+        front_table(&front, &incumbents(&mut run, &args.run).unwrap_or_default(), &names.outputs)
+            + &tiers::table(&run, &front);
     common.result(&records, &table)
 }
 
 /// Fills in what records of an older version lack, if the profile is still there.
 fn count_registers(run: &Run, front: &mut Front) {
-    let Ok(profile) = Profile::find(&run.gpu) else { return };
+    let Some(profile) = run.profile() else { return };
     for member in front.members.iter_mut().filter(|member| member.registers.is_none()) {
         member.registers = Some(profile.cost(&member.program).registers);
     }
 }
 
 /// The incumbents, if the dataset is still where the run found it.
-pub(super) fn incumbents(run: &Run) -> Option<Vec<Published>> {
-    Subject::of_run(run).ok()?.published_for(run)
+pub(super) fn incumbents(run: &mut Run, folder: &Path) -> Option<Vec<Published>> {
+    Subject::of_run(run, folder).ok()?.published_for(run)
 }

@@ -1,7 +1,9 @@
 use super::run_folder::{self, Which};
 use super::{Common, Failure, front};
 use crate::report::table::front_table;
-use crate::search::{Front, MemberRecord, Run, merge};
+use crate::search::{
+    CHECKPOINT, Front, Holding, MemberRecord, Run, RunFolder, in_the_way, load_run, merge,
+};
 use crate::stability::Questions;
 use std::path::{Path, PathBuf};
 
@@ -28,14 +30,20 @@ pub fn run(args: &Args, common: &Common) -> Result<(), Failure> {
         front.judge(&questions, &run.names());
     }
     check_replaceable(&args.out)?;
-    run_folder::create(&args.out)?;
-    let incumbents = front::incumbents(&run).unwrap_or_default();
-    run_folder::write_fronts(&args.out, &run, &union, &minimax, &incumbents)?;
-    run_folder::write_plots(&args.out, &run, &union, &incumbents)?;
-    run.save(&args.out)?;
+    let folder = RunFolder::claim(&args.out)?;
+    // It may have changed hands in between.
+    check_replaceable(&args.out)?;
+    let incumbents = front::incumbents(&mut run.clone(), &args.runs[0]).unwrap_or_default();
+    let files = run_folder::fronts(&run, &union, &minimax, &incumbents);
+    let snippets = run_folder::snippets_in(&args.out);
+    let written = folder
+        .exchange(&run, &files, &snippets)
+        .map_err(Failure::from)
+        .and_then(|()| run_folder::write_plots(&args.out, &run, &union, &incumbents));
     let names = run.names();
     let records: Vec<_> = union.members.iter().map(|m| MemberRecord::new(m, &names)).collect();
     common.result(&records, &front_table(&union, &incumbents, &names.outputs))?;
+    written?;
     if !common.quiet {
         eprintln!("{} searches; written to {}", run.sources.len(), args.out.display());
     }
@@ -48,11 +56,21 @@ fn united(args: &Args, which: Which) -> Result<(Run, Front), Failure> {
     merge(runs?)?.ok_or_else(|| Failure::usage("no runs to merge"))
 }
 
-/// A search's folder holds what cannot be had again.
+/// A search's folder holds what cannot be had again; and other files may be called as a union's are.
 fn check_replaceable(out: &Path) -> Result<(), Failure> {
-    if !out.join("run.ron").exists() || !Run::load(out)?.sources.is_empty() {
-        return Ok(());
+    let refuse = |reason: &str| {
+        let out = out.display();
+        Err(Failure::usage(format!(
+            "{out}: the union would replace {reason}; choose another --out"
+        )))
+    };
+    match Holding::of(out) {
+        Holding::Finished if load_run(out)?.sources.is_empty() => refuse("a search"),
+        Holding::Unfinished if out.join(CHECKPOINT).exists() => refuse("a search"),
+        Holding::NoRun => match in_the_way(out, &run_folder::snippets_in(out)) {
+            Some(file) => refuse(&format!("`{file}`, which is no run's")),
+            None => Ok(()),
+        },
+        _ => Ok(()),
     }
-    let out = out.display();
-    Err(Failure::usage(format!("{out}: the union would replace a search; choose another --out")))
 }

@@ -17,9 +17,12 @@ mod inventory;
 mod list;
 mod merge;
 mod output;
+mod plan;
 mod pruning;
+mod refusals;
 mod render;
 mod report;
+mod resume;
 mod run_folder;
 mod scene;
 mod search;
@@ -32,6 +35,7 @@ pub use failure::{Exit, Failure};
 pub use output::Common;
 
 use clap::{Parser, Subcommand};
+use std::ffi::OsString;
 use std::process::ExitCode;
 
 const ABOUT: &str = "\
@@ -123,7 +127,12 @@ impl Command {
 
 /// Runs the command that the process was started with.
 pub fn run() -> ExitCode {
-    let cli = match Cli::try_parse() {
+    run_words(std::env::args_os())
+}
+
+/// Runs a command of these words, the program's name the first.
+pub fn run_words(words: impl IntoIterator<Item = OsString>) -> ExitCode {
+    let cli = match Cli::try_parse_from(words) {
         Ok(cli) => cli,
         Err(usage) => {
             // Help for a reader that has gone away is no failure.

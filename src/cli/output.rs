@@ -20,12 +20,17 @@ pub struct Common {
     #[arg(long, global = true, value_name = "N")]
     #[arg(value_parser = clap::value_parser!(u16).range(1..=1024))]
     pub threads: Option<u16>,
-    /// Begin random numbers here: the same seed repeats a search
-    #[arg(long, global = true, value_name = "S", default_value_t = 1)]
-    pub seed: u64,
+    /// Begin random numbers here: the same seed repeats a search [default: 1]
+    #[arg(long, global = true, value_name = "S")]
+    pub seed: Option<u64>,
 }
 
 impl Common {
+    /// The seed, or the usual one.
+    pub fn seed(&self) -> u64 {
+        self.seed.unwrap_or(1)
+    }
+
     pub(super) fn start(&self) -> Result<(), Failure> {
         let Some(threads) = self.threads else { return Ok(()) };
         let pool = rayon::ThreadPoolBuilder::new().num_threads(threads.into());

@@ -11,7 +11,7 @@ use crate::report::spheres::{
     displayed_rmse, picture,
 };
 use crate::report::table::cycles_text;
-use crate::search::Run;
+use crate::search::{Run, RunFolder};
 use serde::Serialize;
 use std::path::PathBuf;
 
@@ -87,11 +87,17 @@ struct Written {
 pub fn run(args: &Args, common: &Common) -> Result<(), Failure> {
     let (mut run, front) = run_folder::load(&args.run, args.which)?;
     let member = emit::numbered(&front, Some(&args.pick))?;
-    if let Some(path) = &args.dataset {
-        run.dataset = path.clone();
-    }
-    let Subject { dataset, .. } = Subject::of_run(&run)
-        .map_err(|problem| Failure::new(Exit::Input, anyhow::Error::msg(problem)))?;
+    let found = match &args.dataset {
+        Some(path) => Subject::of_run_at(&run, path),
+        None => Subject::of_run(&mut run, &args.run)
+            .map_err(|problem| format!("{problem}; --dataset says where the data are")),
+    };
+    let Subject { dataset, .. } =
+        found.map_err(|problem| Failure::new(Exit::Input, anyhow::Error::msg(problem)))?;
+    let _owned = match &args.output {
+        Some(_) => None,
+        None => Some(RunFolder::claim(&args.run)?),
+    };
     let path = args.output.clone().unwrap_or_else(|| args.run.join("spheres.png"));
     output::check_writable(&path)?;
     let view = View { f0: args.f0, omega: args.omega, exposure: args.exposure, ..View::default() };

@@ -1,7 +1,7 @@
-//! A run's folder while it is written, and the snippets in it.
+//! What a search leaves behind while it goes on and at its end, and how a command reads it.
 
 use super::{Exit, Failure};
-use crate::dataset::{Column, Dataset, replace_file};
+use crate::dataset::{Column, replace_file};
 use crate::emit::{self, Language, Snippet};
 use crate::eval::OutputError;
 use crate::fit::Measure;
@@ -10,16 +10,15 @@ use crate::report::examination::at_most;
 use crate::report::plot::{self, FrontPlot, PlotError, Theme};
 use crate::report::table::{Published, axis_title, cycles_text, error_text, front_table, title};
 use crate::report::verdict::{number_text, verdict_lines};
-use crate::search::{Census, Front, FrontMember, Problem, Run, Search, TracePoint, trace_csv};
+use crate::search::{
+    CENSUS, Census, Checkpoint, FRONT, Front, FrontMember, MINIMAX_FRONT, Problem, Run, RunFolder,
+    Search, TRACE, TracePoint, load_front, load_run, trace_csv,
+};
 use crate::stability::half_loss;
 use std::collections::BTreeSet;
 use std::ffi::OsStr;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 use std::time::{Duration, Instant};
-
-/// The front in the measure that was searched for, and in maximum error.
-const FRONT: &str = "front.json";
-const MINIMAX_FRONT: &str = "front-max.json";
 
 /// Between checkpoints.
 const CHECKPOINT_INTERVAL: Duration = Duration::from_secs(15);
@@ -27,34 +26,41 @@ const CHECKPOINT_INTERVAL: Duration = Duration::from_secs(15);
 /// Pixels: what a README shows, at twice the density.
 const PLOT_WIDTH: u32 = 1600;
 
-/// Makes a run's folder, and makes sure that it can be written, before anything is searched.
-pub fn create(folder: &Path) -> Result<(), Failure> {
-    std::fs::create_dir_all(folder)
-        .and_then(|()| tempfile::tempfile_in(folder).map(drop))
-        .map_err(|error| Failure::unwritable(folder, error.kind()))
-}
-
 /// A run's folder before the run is done.
 pub struct PartialRun {
-    folder: PathBuf,
+    folder: RunFolder,
+    /// Whether the folder still holds another run, which this one is to take the place of.
+    replaces: bool,
     trace: Vec<TracePoint>,
     /// The lines of the run that this one goes on with.
     earlier_trace: String,
     census: Census,
     last_checkpoint: Instant,
+    /// The last failure to write a checkpoint, as the user was told.
+    warned: String,
 }
 
 impl PartialRun {
-    pub fn new(folder: &Path, resumed: bool) -> Result<PartialRun, Failure> {
-        let earlier = resumed.then(|| std::fs::read_to_string(folder.join("trace.csv")).ok());
-        let census = if resumed { Census::load(folder)? } else { None };
-        Ok(PartialRun {
-            folder: folder.to_owned(),
+    /// A run in a folder; `replaces` another run that is there.
+    pub fn new(folder: RunFolder, replaces: bool) -> PartialRun {
+        PartialRun {
+            folder,
+            replaces,
             trace: Vec::new(),
-            earlier_trace: earlier.flatten().unwrap_or_default(),
-            census: census.unwrap_or_default(),
+            earlier_trace: String::new(),
+            census: Census::default(),
             last_checkpoint: Instant::now(),
-        })
+            warned: String::new(),
+        }
+    }
+
+    /// A run that goes on with the one of the folder.
+    pub fn resumed(folder: RunFolder, trace: String, census: Census) -> PartialRun {
+        PartialRun { earlier_trace: trace, census, ..PartialRun::new(folder, false) }
+    }
+
+    pub fn folder(&self) -> &Path {
+        self.folder.path()
     }
 
     /// Notes a generation; checkpoints now and then, with what the run is so far.
@@ -64,33 +70,54 @@ impl PartialRun {
         search: &Search,
         problem: &Problem,
         so_far: impl FnOnce() -> Run,
-    ) -> Result<(), Failure> {
+    ) {
         // Later on little changes: points a twentieth apart are enough.
         let enough = self.trace.last().is_none_or(|last| point.seconds >= last.seconds * 1.05);
-        if enough {
-            let names = problem.dataset.names();
-            for member in search.archive().members() {
-                self.census.count(&problem.natural(&member.draft), &names, point.seconds);
+        let due = self.last_checkpoint.elapsed() >= CHECKPOINT_INTERVAL;
+        if enough || due {
+            let run = so_far();
+            if enough {
+                let names = run.names();
+                for member in search.archive().members() {
+                    self.census.count(&problem.natural(&member.draft), &names, point.seconds);
+                }
+                self.trace.push(point);
             }
-            self.trace.push(point);
+            if due {
+                self.checkpoint_or_warn(&run, search);
+            }
         }
-        if self.last_checkpoint.elapsed() >= CHECKPOINT_INTERVAL {
-            self.checkpoint(&so_far(), search, problem.dataset)?;
-            self.last_checkpoint = Instant::now();
-        }
-        Ok(())
     }
 
-    /// Writes what `--resume` goes on with. Fronts that are there are of an earlier end, or run: without
-    /// them the folder is known for that of a search that has not ended.
-    fn checkpoint(&self, run: &Run, search: &Search, dataset: &Dataset) -> Result<(), Failure> {
-        for file in [FRONT, MINIMAX_FRONT] {
-            let _ = std::fs::remove_file(self.folder.join(file));
+    /// Writes what `--resume` goes on with. Where that fails the search goes on all the same: its end may
+    /// still be written, and is shown in any case.
+    pub fn checkpoint_or_warn(&mut self, run: &Run, search: &Search) {
+        if let Err(failure) = self.checkpoint(run, search) {
+            let warning = failure.error.to_string();
+            if warning != self.warned {
+                eprintln!(
+                    "warning: {warning}\nthe search goes on, but could not be resumed from here"
+                );
+                self.warned = warning;
+            }
         }
-        write(&self.folder, "trace.csv", self.trace_text(search.settings().measure).as_bytes())?;
-        self.census.save(&self.folder)?;
-        search.save(&self.folder, dataset)?;
-        Ok(run.save(&self.folder)?)
+        self.last_checkpoint = Instant::now();
+    }
+
+    fn checkpoint(&mut self, run: &Run, search: &Search) -> Result<(), Failure> {
+        let checkpoint = Checkpoint {
+            run: run.clone(),
+            search: search.clone(),
+            trace: self.trace_text(search.settings().measure),
+            census: self.census.clone(),
+        };
+        let bytes = checkpoint.to_bytes();
+        if self.replaces {
+            self.folder.begin_anew(&bytes, &snippets_in(self.folder.path()))?;
+            self.replaces = false;
+            return Ok(());
+        }
+        Ok(self.folder.checkpoint(&bytes)?)
     }
 
     fn trace_text(&self, measure: Measure) -> String {
@@ -103,55 +130,61 @@ impl PartialRun {
 
     /// Writes what the run leaves behind.
     pub fn finish(
-        &self,
+        &mut self,
         run: &Run,
         front: &Front,
         minimax: &Front,
         incumbents: &[Published],
         search: &Search,
-        dataset: &Dataset,
     ) -> Result<(), Failure> {
-        self.checkpoint(run, search, dataset)?;
-        write_fronts(&self.folder, run, front, minimax, incumbents)
+        let checkpointed = self.checkpoint(run, search);
+        let mut files = fronts(run, front, minimax, incumbents);
+        let trace = self.trace_text(search.settings().measure);
+        files.push((TRACE.to_owned(), trace.into_bytes()));
+        files.push((CENSUS.to_owned(), self.census.to_json().into_bytes()));
+        self.folder.exchange(run, &files, &snippets_in(self.folder.path()))?;
+        checkpointed
     }
 }
 
-/// Writes both fronts, and the one searched for as text and snippets.
-pub fn write_fronts(
-    folder: &Path,
+/// Both fronts, and the one searched for as text and snippets: the files and what is in them.
+pub fn fronts(
     run: &Run,
     front: &Front,
     minimax: &Front,
     incumbents: &[Published],
-) -> Result<(), Failure> {
+) -> Vec<(String, Vec<u8>)> {
     let names = run.names();
-    write(folder, FRONT, front.to_json(&names).as_bytes())?;
-    write(folder, MINIMAX_FRONT, minimax.to_json(&names).as_bytes())?;
-    write(folder, "front.txt", front_table(front, incumbents, &names.outputs).as_bytes())?;
-    let snippets = folder.join("snippets");
-    create(&snippets)?;
-    remove_snippets(&snippets);
+    let mut files = vec![
+        (FRONT.to_owned(), front.to_json(&names)),
+        (MINIMAX_FRONT.to_owned(), minimax.to_json(&names)),
+        ("front.txt".to_owned(), front_table(front, incumbents, &names.outputs)),
+    ];
     for (i, member) in front.members.iter().enumerate() {
-        for &language in Language::ALL {
+        files.extend(Language::ALL.iter().map(|&language| {
             let file = format!("snippets/{:02}.{}", i + 1, language.extension());
-            write(folder, &file, snippet(run, member, language).as_bytes())?;
-        }
+            (file, snippet(run, member, language))
+        }));
     }
-    Ok(())
+    files.into_iter().map(|(file, text)| (file, text.into_bytes())).collect()
 }
 
-/// Removes what an earlier run has written there, and nothing else.
-fn remove_snippets(folder: &Path) {
-    let is_ours = |path: &PathBuf| {
-        let part =
-            |part: Option<&OsStr>| part.and_then(OsStr::to_str).unwrap_or_default().to_owned();
+/// What runs have written to a folder's `snippets`, and nothing else.
+pub fn snippets_in(folder: &Path) -> Vec<String> {
+    let part = |part: Option<&OsStr>| part.and_then(OsStr::to_str).unwrap_or_default().to_owned();
+    let is_ours = |path: &Path| {
         let (stem, extension) = (part(path.file_stem()), part(path.extension()));
         stem.len() >= 2
             && stem.bytes().all(|byte| byte.is_ascii_digit())
             && Language::ALL.iter().any(|language| language.extension() == extension)
     };
-    let paths = folder.read_dir().into_iter().flatten().flatten().map(|entry| entry.path());
-    paths.filter(is_ours).for_each(|path| drop(std::fs::remove_file(path)));
+    let folder = folder.join("snippets");
+    if folder.is_symlink() {
+        return Vec::new();
+    }
+    let files = folder.read_dir().into_iter().flatten().flatten();
+    let ours = files.map(|file| file.path()).filter(|path| is_ours(path));
+    ours.map(|path| format!("snippets/{}", part(path.file_name()))).collect()
 }
 
 /// The front as a picture, in its measure.
@@ -295,16 +328,7 @@ pub struct Which {
 
 /// The run and a front of a folder that `lgp search` wrote.
 pub fn load(folder: &Path, which: Which) -> Result<(Run, Front), Failure> {
-    if !folder.is_dir() {
-        let message =
-            format!("{}: no such folder; give one that `lgp search` wrote", folder.display());
-        return Err(Failure::new(Exit::Input, anyhow::Error::msg(message)));
-    }
-    let run = Run::load(folder)?;
-    let (file, measure) = match which.minimax {
-        true => (MINIMAX_FRONT, Measure::Max),
-        false => (FRONT, run.settings.measure),
-    };
-    let front = Front::load(&folder.join(file), &run, measure)?;
+    let run = load_run(folder)?;
+    let front = load_front(folder, &run, which.minimax)?;
     Ok((run, front))
 }

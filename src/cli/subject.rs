@@ -6,7 +6,7 @@ use crate::dataset::{Comparable, Dataset, incumbents_for, load_incumbents};
 use crate::report::table::Published;
 use crate::scene::Scene;
 use crate::search::{FrontMember, Run};
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 /// A dataset as a command takes it.
 pub struct Subject {
@@ -37,11 +37,20 @@ impl Subject {
         Ok(Subject { whole, scene, dataset })
     }
 
-    /// What a run was of, if that is still where the run found it; if not, what is wrong.
-    pub fn of_run(run: &Run) -> Result<Subject, String> {
-        let whole = Dataset::load(&run.dataset).map_err(|error| error.to_string())?;
+    /// What a run was of, if that is still where the run found it, or as far from the run's folder as
+    /// it was; if not, what is wrong. The run then says where it is.
+    pub fn of_run(run: &mut Run, folder: &Path) -> Result<Subject, String> {
+        if let Some(path) = found(&run.dataset, folder) {
+            run.dataset = path;
+        }
+        Subject::of_run_at(run, &run.dataset)
+    }
+
+    /// The same, of a dataset at a path.
+    pub fn of_run_at(run: &Run, path: &Path) -> Result<Subject, String> {
+        let whole = Dataset::load(path).map_err(|error| error.to_string())?;
         if whole.hash() != run.dataset_hash {
-            let path = run.dataset.display();
+            let path = path.display();
             return Err(format!("{path}: not the data that the run was made with, by its hash"));
         }
         let names = run.names();
@@ -52,7 +61,7 @@ impl Subject {
 
     /// The incumbents beside a run's dataset, costed as the run does, if they can be read.
     pub fn published_for(&self, run: &Run) -> Option<Vec<Published>> {
-        self.published(&run.dataset, &Profile::find(&run.gpu).ok()?).ok()
+        self.published(&run.dataset, &run.profile()?).ok()
     }
 
     /// The incumbents that define every output, scored.
@@ -91,5 +100,28 @@ impl Subject {
             found.extend(own.iter().filter_map(|known| known.compared_on(&self.dataset)));
         }
         Ok(found)
+    }
+}
+
+/// Where a run's dataset is: as its path says, seen from here; or seen from the run's folder or one around
+/// it, as when the command is given elsewhere.
+fn found(dataset: &Path, folder: &Path) -> Option<PathBuf> {
+    if dataset.is_absolute() || dataset.is_file() {
+        return Some(dataset.to_owned());
+    }
+    let folder = folder.canonicalize().ok()?;
+    folder.ancestors().map(|around| around.join(dataset)).find(|path| path.is_file())
+}
+
+/// A dataset's path as a run in a folder notes it: as given, where it can be found again by that, else in
+/// full.
+pub fn noted(dataset: &Path, folder: &Path) -> PathBuf {
+    let (Ok(full), Ok(folder)) = (dataset.canonicalize(), folder.canonicalize()) else {
+        return dataset.to_owned();
+    };
+    let is_it = |around: &Path| around.join(dataset).canonicalize().is_ok_and(|path| path == full);
+    match folder.ancestors().any(is_it) {
+        true => dataset.to_owned(),
+        false => full,
     }
 }

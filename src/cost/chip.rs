@@ -3,7 +3,7 @@
 use super::form::Form;
 use crate::grammar::{FileError, file};
 use crate::op::Op;
-use serde::Deserialize;
+use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 
 pub(super) const KIND: &str = "GPU profile";
@@ -28,6 +28,8 @@ pub(super) struct Chip {
     three: Cost,
     /// Of a constant that is no part of an instruction.
     pub literal: Option<Slots>,
+    /// What all this was read from.
+    pub file: File,
 }
 
 /// Slots, and cycles until the result can be read.
@@ -39,7 +41,7 @@ pub(super) struct Cost {
 
 /// What the compiler merges, besides products with sums, signs of arguments, and square roots with
 /// their inverse.
-#[derive(Clone, Debug, PartialEq, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(super) struct Merges {
     /// The instruction that is a minimum or maximum of three, or a clamp between constants.
@@ -52,15 +54,16 @@ pub(super) struct Merges {
     pub saturates: Saturates,
 }
 
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub(super) enum Saturates {
     Every,
     Arithmetic,
 }
 
-#[derive(Deserialize)]
+/// What a chip's file says.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
-struct File {
+pub(super) struct File {
     name: String,
     #[serde(default)]
     description: String,
@@ -74,7 +77,7 @@ struct File {
 }
 
 /// A kind of instruction.
-#[derive(Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 struct Instruction {
     /// One number for each pipe.
@@ -93,7 +96,7 @@ impl Chip {
         })
     }
 
-    fn of(file: File) -> Result<Chip, String> {
+    pub fn of(file: File) -> Result<Chip, String> {
         if file.pipes.is_empty() || file.pipes.len() > PIPES {
             return Err(format!("`pipes` must name 1 to {PIPES} pipes"));
         }
@@ -125,11 +128,17 @@ impl Chip {
             costs: costs.collect::<Result<_, String>>()?,
             three: single("`min3`", &file.merges.min3)?.unwrap_or_default(),
             literal: single("`literal`", &file.literal)?.map(|cost| cost.slots),
-            name: file.name,
-            description: file.description,
-            pipes: file.pipes,
-            merges: file.merges,
+            name: file.name.clone(),
+            description: file.description.clone(),
+            pipes: file.pipes.clone(),
+            merges: file.merges.clone(),
+            file,
         })
+    }
+
+    /// What its file says, but for what it is called.
+    pub fn nameless(&self) -> File {
+        File { name: String::new(), description: String::new(), ..self.file.clone() }
     }
 
     /// The cost of an operation by itself, with nothing merged.

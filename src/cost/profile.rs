@@ -1,7 +1,8 @@
 //! GPU profiles: one chip, or a weighted mix of several.
 
-use super::chip::{Chip, KIND};
+use super::chip::{Chip, File, KIND};
 use crate::grammar::{FileError, file};
+use serde::{Deserialize, Serialize};
 
 /// The chips that come with the program, by name.
 const BUILT_IN: [(&str, &str); 6] = [
@@ -13,8 +14,10 @@ const BUILT_IN: [(&str, &str); 6] = [
     ("valhall", include_str!("../../grammar/gpu/valhall.ron")),
 ];
 
-/// What formulas cost on a GPU, or on a weighted mix of GPUs.
-#[derive(Clone, Debug, PartialEq)]
+/// What formulas cost on a GPU, or on a weighted mix of GPUs. Serialised, it is what its files say, and
+/// read back by the same rules.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(into = "Kept", try_from = "Kept")]
 pub struct Profile {
     pub name: String,
     pub description: String,
@@ -48,6 +51,19 @@ impl Profile {
         Ok(Profile { name: name_or_mix.to_owned(), description, chips })
     }
 
+    /// A built-in profile or a mix of such, by name; no file is opened.
+    pub fn find_built_in(name_or_mix: &str) -> Option<Profile> {
+        let known = |(name, _): &(&str, f64)| BUILT_IN.iter().any(|(known, _)| known == name);
+        let only_known = parts(name_or_mix).is_ok_and(|parts| parts.iter().all(known));
+        only_known.then(|| Profile::find(name_or_mix).ok()).flatten()
+    }
+
+    /// Equal for profiles by which everything costs the same, whatever they are called.
+    pub fn fingerprint(&self) -> String {
+        let chips = self.chips.iter().map(|(share, chip)| (*share, chip.nameless()));
+        file::fingerprint(&chips.collect::<Vec<_>>())
+    }
+
     /// A profile from the text of a `.ron` file at `path`.
     pub fn parse(path: &str, text: &str) -> Result<Profile, FileError> {
         Ok(Profile::single(Chip::parse(path, text)?))
@@ -59,6 +75,38 @@ impl Profile {
             description: chip.description.clone(),
             chips: vec![(1.0, chip)],
         }
+    }
+}
+
+/// A profile as data.
+#[derive(Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Kept {
+    name: String,
+    description: String,
+    /// With their shares.
+    chips: Vec<(f64, File)>,
+}
+
+impl From<Profile> for Kept {
+    fn from(Profile { name, description, chips }: Profile) -> Kept {
+        let chips = chips.into_iter().map(|(share, chip)| (share, chip.file)).collect();
+        Kept { name, description, chips }
+    }
+}
+
+impl TryFrom<Kept> for Profile {
+    type Error = String;
+
+    fn try_from(Kept { name, description, chips }: Kept) -> Result<Profile, String> {
+        let total: f64 = chips.iter().map(|(share, _)| share).sum();
+        let positive = chips.iter().all(|(share, _)| *share > 0.0);
+        if !(positive && (total - 1.0).abs() < 1e-9) {
+            return Err("the shares of a GPU profile's chips must sum to 1".to_owned());
+        }
+        let chip = |(share, file)| Ok((share, Chip::of(file)?));
+        let chips = chips.into_iter().map(chip).collect::<Result<_, String>>()?;
+        Ok(Profile { name, description, chips })
     }
 }
 

@@ -1,5 +1,10 @@
 use std::io::{self, Write};
-use std::path::Path;
+use std::path::{Path, PathBuf};
+use std::sync::OnceLock;
+use tempfile::TempPath;
+
+/// What the names of temporaries begin with.
+pub const TEMPORARY: &str = ".lgp-";
 
 /// Writes a file so that, whenever the process is killed, `path` holds either
 /// its old content or all of the new: to a temporary in the same folder, then
@@ -8,18 +13,80 @@ use std::path::Path;
 /// # Errors
 /// Those of creating, writing and renaming the temporary.
 pub fn replace_file(path: &Path, bytes: &[u8]) -> io::Result<()> {
-    let folder = match path.parent() {
-        Some(parent) if !parent.as_os_str().is_empty() => parent,
-        _ => Path::new("."),
-    };
-    let mut builder = tempfile::Builder::new();
-    builder.prefix(".lgp-");
-    // Temporaries are private by default; what they become should not be.
-    #[cfg(unix)]
-    builder.permissions(std::os::unix::fs::PermissionsExt::from_mode(0o666));
-    let mut file = builder.tempfile_in(folder)?;
-    file.write_all(bytes)?;
-    file.as_file().sync_all()?;
-    file.persist(path)?;
-    Ok(())
+    StagedFile::new(path, bytes)?.put_in_place()
+}
+
+/// A file that is written whole beside the place that it is for. Dropped, it is gone.
+#[derive(Debug)]
+pub struct StagedFile {
+    temporary: TempPath,
+    path: PathBuf,
+}
+
+impl StagedFile {
+    /// Writes the content to a temporary in the folder of `path`.
+    ///
+    /// # Errors
+    /// Those of creating and writing it.
+    pub fn new(path: &Path, bytes: &[u8]) -> io::Result<StagedFile> {
+        let folder = match path.parent() {
+            Some(parent) if !parent.as_os_str().is_empty() => parent,
+            _ => Path::new("."),
+        };
+        let mut builder = tempfile::Builder::new();
+        builder.prefix(TEMPORARY);
+        // Temporaries are private by default; what they become should not be.
+        #[cfg(unix)]
+        builder.permissions(std::os::unix::fs::PermissionsExt::from_mode(0o666));
+        announce("create", path);
+        let mut file = builder.tempfile_in(folder)?;
+        announce("write", path);
+        file.write_all(bytes)?;
+        file.as_file().sync_all()?;
+        Ok(StagedFile { temporary: file.into_temp_path(), path: path.to_owned() })
+    }
+
+    /// Where it is to be.
+    pub fn path(&self) -> &Path {
+        &self.path
+    }
+
+    /// Puts it in the place of what is there.
+    ///
+    /// # Errors
+    /// Those of renaming.
+    pub fn put_in_place(self) -> io::Result<()> {
+        announce("rename", &self.path);
+        Ok(self.temporary.persist(&self.path)?)
+    }
+}
+
+/// Removes a file, if there is one.
+///
+/// # Errors
+/// Those of removing one that is there.
+pub fn remove_file(path: &Path) -> io::Result<()> {
+    announce("remove", path);
+    match std::fs::remove_file(path) {
+        Err(error) if error.kind() != io::ErrorKind::NotFound => Err(error),
+        _ => Ok(()),
+    }
+}
+
+/// What is to be done to a file, and which.
+type Witness = fn(&'static str, &Path);
+
+static WITNESS: OnceLock<Witness> = OnceLock::new();
+
+/// Has a function called before each creation, writing, renaming and removal of a file: tests end the
+/// process there, to see what is left. The first call counts.
+#[doc(hidden)]
+pub fn witness_file_operations(witness: Witness) {
+    let _ = WITNESS.set(witness);
+}
+
+fn announce(operation: &'static str, path: &Path) {
+    if let Some(witness) = WITNESS.get() {
+        witness(operation, path);
+    }
 }

@@ -16,7 +16,7 @@ mod unit;
 
 pub use csv::{InputColumns, Table, import_csv};
 pub use error::Error;
-pub use file::replace_file;
+pub use file::{StagedFile, TEMPORARY, remove_file, replace_file, witness_file_operations};
 pub use incumbent::{Comparable, Incumbent, incumbents_file, incumbents_for, load_incumbents};
 pub use unit::{joint_unit, output_units, unit};
 
@@ -98,7 +98,7 @@ impl Dataset {
         if self.outputs.is_empty() {
             return Err(Error::NoOutputs { path: path.into() });
         }
-        self.validate_columns(path)?;
+        check_columns(path, self.columns())?;
         self.validate_split(path, "search", &self.search)?;
         self.validate_split(path, "validation", &self.validation)
     }
@@ -116,29 +116,6 @@ impl Dataset {
 
     fn columns(&self) -> impl Iterator<Item = &Column> {
         self.inputs.iter().chain(&self.outputs)
-    }
-
-    fn validate_columns(&self, path: &Path) -> Result<(), Error> {
-        let mut seen = HashSet::new();
-        for column in self.columns() {
-            check_identifier(path, None, &column.name)?;
-            if !seen.insert(column.name.as_str()) {
-                return Err(Error::DuplicateColumn {
-                    path: path.into(),
-                    column: column.name.clone(),
-                });
-            }
-            let [low, high] = column.domain;
-            if !(low.is_finite() && high.is_finite() && low <= high) {
-                return Err(Error::Domain {
-                    path: path.into(),
-                    column: column.name.clone(),
-                    low,
-                    high,
-                });
-            }
-        }
-        Ok(())
     }
 
     fn validate_free(&self, path: &Path, split: &'static str, rows: &Split) -> Result<(), Error> {
@@ -185,6 +162,33 @@ impl Dataset {
         }
         Ok(())
     }
+}
+
+/// Checks that names are unique identifiers, and domains finite and ordered.
+///
+/// # Errors
+/// The first violation found, at `path`.
+pub fn check_columns<'a>(
+    path: &Path,
+    columns: impl Iterator<Item = &'a Column>,
+) -> Result<(), Error> {
+    let mut seen = HashSet::new();
+    for column in columns {
+        check_identifier(path, None, &column.name)?;
+        if !seen.insert(column.name.as_str()) {
+            return Err(Error::DuplicateColumn { path: path.into(), column: column.name.clone() });
+        }
+        let [low, high] = column.domain;
+        if !(low.is_finite() && high.is_finite() && low <= high) {
+            return Err(Error::Domain {
+                path: path.into(),
+                column: column.name.clone(),
+                low,
+                high,
+            });
+        }
+    }
+    Ok(())
 }
 
 /// What a column of free errors is called in messages.

@@ -3,6 +3,7 @@
 use crate::op::Op;
 use crate::suggest::did_you_mean;
 use ron::extensions::Extensions;
+use serde::Serialize;
 use serde::de::DeserializeOwned;
 use std::borrow::Cow;
 use std::path::Path;
@@ -62,6 +63,12 @@ pub(crate) fn parse<T: DeserializeOwned>(
         column: error.span.start.col,
         reason: error.code.to_string(),
     })
+}
+
+/// A few digits that are equal for equal contents.
+pub(crate) fn fingerprint(content: &impl Serialize) -> String {
+    let text = ron::to_string(content).expect("plain data");
+    blake3::hash(text.as_bytes()).to_hex().as_str()[..16].to_owned()
 }
 
 /// The operation that a file names.

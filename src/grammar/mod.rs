@@ -6,7 +6,7 @@ pub use file::FileError;
 
 use crate::op::Op;
 use crate::program::{Arg, Draft};
-use serde::Deserialize;
+use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 
 const KIND: &str = "grammar";
@@ -21,8 +21,10 @@ const BUILT_IN: [(&str, &str); 3] = [
 /// The most instructions a grammar may allow.
 pub const MAX_INSTRUCTIONS: usize = 128;
 
-/// What a search may write.
-#[derive(Clone, Debug, PartialEq)]
+/// What a search may write. Serialised, it is its name and what its file says, and read back by the same
+/// rules.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(into = "(String, File)", try_from = "(String, File)")]
 pub struct Grammar {
     pub name: String,
     pub description: String,
@@ -35,7 +37,7 @@ pub struct Grammar {
     pub nesting: Vec<(Op, usize)>,
 }
 
-#[derive(Deserialize)]
+#[derive(Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 struct File {
     #[serde(default)]
@@ -59,9 +61,24 @@ impl Grammar {
         Grammar::parse(name_or_path, &file::find(KIND, name_or_path, &BUILT_IN)?)
     }
 
+    /// A built-in grammar by name; no file is opened.
+    pub fn find_built_in(name: &str) -> Result<Grammar, FileError> {
+        match BUILT_IN.iter().find(|(known, _)| *known == name) {
+            Some((_, text)) => Grammar::parse(name, text),
+            None => Err(FileError::Content {
+                kind: KIND,
+                path: name.to_owned(),
+                reason: "the run's record has only its name, and it is not built in".into(),
+            }),
+        }
+    }
+
     /// A grammar from the text of a `.ron` file called `name`.
     pub fn parse(name: &str, text: &str) -> Result<Grammar, FileError> {
-        let file: File = file::parse(KIND, name, text)?;
+        Grammar::of(name, file::parse(KIND, name, text)?)
+    }
+
+    fn of(name: &str, file: File) -> Result<Grammar, FileError> {
         let refuse =
             |reason: String| FileError::Content { kind: KIND, path: name.to_owned(), reason };
         if file.operations.is_empty() {
@@ -85,6 +102,17 @@ impl Grammar {
         })
     }
 
+    /// Whether formulas may be written with the operation.
+    pub fn has(&self, wanted: Op) -> bool {
+        self.operations.iter().any(|(op, _)| *op == wanted)
+    }
+
+    /// Equal for grammars that allow the same, whatever they are called.
+    pub fn fingerprint(&self) -> String {
+        let (_, file) = self.clone().into();
+        file::fingerprint(&File { description: String::new(), ..file })
+    }
+
     /// Whether no operation stands inside its like more often than it may: `exp2(a + exp2(b))` has
     /// two `exp2` inside one another.
     pub fn allows_nesting(&self, draft: &Draft) -> bool {
@@ -106,6 +134,31 @@ impl Grammar {
     pub fn penalty(&self, draft: &Draft) -> f64 {
         let of = |op| self.penalties.iter().find(|(known, _)| *known == op).map_or(0.0, |p| p.1);
         draft.instrs.iter().map(|instr| of(instr.op())).sum()
+    }
+}
+
+impl From<Grammar> for (String, File) {
+    fn from(grammar: Grammar) -> (String, File) {
+        let named = |values: &[(Op, f64)]| {
+            values.iter().map(|(op, value)| (op.name().to_owned(), *value)).collect()
+        };
+        let nesting = grammar.nesting.iter().map(|(op, most)| (op.name().to_owned(), *most));
+        let file = File {
+            operations: named(&grammar.operations),
+            max_instructions: grammar.max_instructions,
+            penalties: named(&grammar.penalties),
+            nesting: nesting.collect(),
+            description: grammar.description,
+        };
+        (grammar.name, file)
+    }
+}
+
+impl TryFrom<(String, File)> for Grammar {
+    type Error = FileError;
+
+    fn try_from((name, file): (String, File)) -> Result<Grammar, FileError> {
+        Grammar::of(&name, file)
     }
 }
 

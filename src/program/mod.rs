@@ -152,7 +152,11 @@ impl Draft {
         }
     }
 
-    fn check(&self) -> Result<(), Invalid> {
+    /// Whether it is a program.
+    ///
+    /// # Errors
+    /// The first thing that makes it none.
+    pub fn check(&self) -> Result<(), Invalid> {
         let counts = [
             (self.inputs, "inputs"),
             (self.consts.len(), "constants"),

@@ -145,8 +145,16 @@ impl Scene {
         if scene.name.is_empty() {
             scene.name = name.to_owned();
         }
-        scene.check_tiers()?;
+        scene.check()?;
         Ok(scene)
+    }
+
+    /// What can be checked of it without a dataset.
+    ///
+    /// # Errors
+    /// A tier without limits, or with some that cannot be meant.
+    pub fn check(&self) -> Result<(), Error> {
+        self.check_tiers()
     }
 
     /// What the scene does to a dataset, in a line.

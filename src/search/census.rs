@@ -2,7 +2,9 @@
 //! Iwanicki 2015, §5: variables that are rarely used may not matter, subexpressions that are
 //! often present may be a change of variable that the data calls for).
 
-use super::record::{RecordError, read, write};
+use super::folder::{CENSUS, load_text};
+use super::loaded::not_negative;
+use super::{RecordError, Run};
 use crate::op::Op;
 use crate::program::{
     Arg, Constants, Draft, Instr, Names, Program, effective_into, print_expression, structural_hash,
@@ -16,8 +18,6 @@ const MOST_OPERATIONS: u32 = 8;
 
 /// Subexpressions that are kept on disk.
 const MOST_KEPT: usize = 1000;
-
-const FILE: &str = "census.json";
 
 /// Counts of formulas by the inputs and subexpressions that they contain.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
@@ -137,29 +137,44 @@ impl Census {
         })
     }
 
-    /// Writes `census.json` to a run's folder: the most frequent subexpressions.
-    pub fn save(&self, folder: &Path) -> Result<(), RecordError> {
-        let mut kept = self.clone();
-        let mut counts: Vec<u64> = kept.expressions.values().map(|found| found.count).collect();
+    /// The most frequent subexpressions, as they are kept on disk.
+    pub(super) fn pruned(mut self) -> Census {
+        let mut counts: Vec<u64> = self.expressions.values().map(|found| found.count).collect();
         counts.sort_unstable_by(|a, b| b.cmp(a));
         let least = counts.get(MOST_KEPT).map_or(0, |count| count + 1);
-        kept.expressions.retain(|_, found| found.count >= least);
-        let text = serde_json::to_string(&kept).expect("plain data") + "\n";
-        write(&folder.join(FILE), text.as_bytes())
+        self.expressions.retain(|_, found| found.count >= least);
+        self
+    }
+
+    /// The text of `census.json`: the most frequent subexpressions.
+    pub fn to_json(&self) -> String {
+        serde_json::to_string(&self.clone().pruned()).expect("plain data") + "\n"
     }
 
     /// Reads `census.json` of a run's folder; nothing where there is none.
-    pub fn load(folder: &Path) -> Result<Option<Census>, RecordError> {
-        let path = folder.join(FILE);
-        if !path.exists() {
-            return Ok(None);
+    pub fn load(folder: &Path, run: &Run) -> Result<Option<Census>, RecordError> {
+        let Some(text) = load_text(folder, run, CENSUS)? else { return Ok(None) };
+        let damaged =
+            |line, reason| RecordError::Damaged { path: folder.join(CENSUS), line, reason };
+        let census: Census = serde_json::from_str(&text)
+            .map_err(|error| damaged(error.line(), error.to_string()))?;
+        census.check(run.inputs.len()).map_err(|reason| damaged(1, reason))?;
+        Ok(Some(census))
+    }
+
+    /// Whether formulas of so many inputs could have been counted so.
+    pub(super) fn check(&self, inputs: usize) -> Result<(), String> {
+        let counts = self.inputs.iter().chain(self.expressions.values().map(|one| &one.count));
+        if self.inputs.len() > inputs || counts.into_iter().any(|count| *count > self.formulas) {
+            return Err("it counts more than there is".into());
         }
-        let damaged = |error: serde_json::Error| RecordError::Damaged {
-            path: path.clone(),
-            line: error.line(),
-            reason: error.to_string(),
-        };
-        serde_json::from_str(&read(&path)?).map(Some).map_err(damaged)
+        for found in self.expressions.values() {
+            not_negative("first", found.first)?;
+            if found.expression.chars().any(char::is_control) {
+                return Err("an expression is not one".into());
+            }
+        }
+        Ok(())
     }
 }
 

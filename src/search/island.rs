@@ -115,6 +115,16 @@ impl Island {
         }
     }
 
+    /// Whether it could have come of a new one, for so many inputs and outputs.
+    pub fn check(&self, new: &Island, inputs: usize, outputs: usize) -> Result<(), String> {
+        if (self.seen.len(), self.by_maximum) != (new.seen.len(), new.by_maximum) {
+            return Err("it is not as its settings make it".into());
+        }
+        self.rates.check()?;
+        self.archive.check(inputs, outputs)?;
+        self.population.check(&new.population, inputs, outputs)
+    }
+
     /// One generation, on a random stream of its own.
     pub fn generation(&mut self, problem: &Problem, settings: &Settings, stream: u64) {
         let mut rng = ChaCha8Rng::seed_from_u64(settings.seed);

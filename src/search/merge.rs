@@ -2,7 +2,10 @@
 //! over machines and put together what comes back, in any order.
 
 use super::{Front, Run};
+use crate::cost::Profile;
 use crate::fit::Measure;
+use crate::grammar::Grammar;
+use std::collections::BTreeMap;
 
 /// Runs that have no union.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
@@ -25,7 +28,7 @@ pub fn merge(runs: Vec<(Run, Front)>) -> Result<Option<(Run, Front)>, Incompatib
     let measure = runs.first().map_or(Measure::Rmse, |(_, front)| front.measure);
     for (run, front) in runs {
         match run.sources.is_empty() {
-            true => sources.push(run),
+            true => sources.push(Run { files: BTreeMap::new(), ..run }),
             false => sources.extend(run.sources),
         }
         members.extend(front.members);
@@ -50,17 +53,49 @@ fn check(one: &Run, other: &Run) -> Result<(), Incompatible> {
     if one.scene != other.scene {
         return Err(Incompatible { what: "scene", one: scene(one), other: scene(other) });
     }
+    let [grammars, profiles] = [one.grammars_beside(other), one.profiles_beside(other)];
     let differences = [
         ("dataset", data(one), data(other)),
         ("columns", names(one), names(other)),
         ("requirements", one.requirements(), other.requirements()),
-        ("grammar", one.grammar.clone(), other.grammar.clone()),
-        ("GPU profile", one.gpu.clone(), other.gpu.clone()),
+        ("grammar", grammars[0].clone(), grammars[1].clone()),
+        ("GPU profile", profiles[0].clone(), profiles[1].clone()),
         ("error measure", one.settings.measure.to_string(), other.settings.measure.to_string()),
     ];
     match differences.into_iter().find(|(_, one, other)| one != other) {
         None => Ok(()),
         Some((what, one, other)) => Err(Incompatible { what, one, other }),
+    }
+}
+
+impl Run {
+    /// What the two runs' grammars are told apart by.
+    pub fn grammars_beside(&self, other: &Run) -> [String; 2] {
+        let content = |run: &Run| run.rules.as_ref().map(Grammar::fingerprint);
+        contents((&self.grammar, content(self)), (&other.grammar, content(other)))
+    }
+
+    /// What the two runs' GPU profiles are told apart by.
+    pub fn profiles_beside(&self, other: &Run) -> [String; 2] {
+        let content = |run: &Run| run.profile.as_ref().map(Profile::fingerprint);
+        contents((&self.gpu, content(self)), (&other.gpu, content(other)))
+    }
+
+    /// Whether everything costs the same in both runs.
+    pub fn has_profile_of(&self, other: &Run) -> bool {
+        let [own, others] = self.profiles_beside(other);
+        own == others
+    }
+}
+
+/// What two files are told apart by: their contents; their names where a record of an older version lacks
+/// those.
+fn contents(one: (&str, Option<String>), other: (&str, Option<String>)) -> [String; 2] {
+    match (one, other) {
+        ((_, Some(a)), (_, Some(b))) if a == b => [a, b],
+        ((one, Some(a)), (other, Some(b))) => [(one, a), (other, b)]
+            .map(|(name, content)| format!("{name} (content {})", &content[..8])),
+        ((one, _), (other, _)) => [one.to_owned(), other.to_owned()],
     }
 }
 
@@ -112,7 +147,7 @@ mod tests {
             seconds: 0.5,
             enumeration: None,
             counts: Counts { considered: 10, ..Counts::default() },
-            sources: Vec::new(),
+            ..Run::default()
         };
         let names = Names::new(["x"], ["y"]);
         let member = |&(cost, rmse, formula): &(f64, f64, &str)| {

@@ -10,9 +10,12 @@
 //! does, which is found out sooner.
 
 mod census;
+mod checkpoint;
 mod enumerate;
+mod folder;
 mod front;
 mod island;
+mod loaded;
 mod merge;
 mod polish;
 mod population;
@@ -23,10 +26,16 @@ mod transform;
 mod vary;
 
 pub use census::{Census, Recurring};
+pub use checkpoint::Checkpoint;
 pub use enumerate::Enumeration;
+pub use folder::{
+    CENSUS, CHECKPOINT, FRONT, Holding, MINIMAX_FRONT, RunFolder, TRACE, in_the_way, load_front,
+    load_run, load_text,
+};
 pub use front::{Front, FrontMember};
+pub use loaded::{MOST_CYCLES, MOST_ISLANDS};
 pub use merge::{Incompatible, merge};
-pub use record::{MemberRecord, RecordError, Run, TRACE_COSTS, TracePoint, trace_csv};
+pub use record::{Budget, MemberRecord, RecordError, Run, TRACE_COSTS, TracePoint, trace_csv};
 pub use require::Requirement;
 pub use transform::Transform;
 

@@ -1,5 +1,6 @@
 //! An island's population: the best few individuals at each cost, or of each family at each cost.
 
+use super::loaded::{check_draft, not_negative};
 use crate::op::Op;
 use crate::program::Draft;
 use rand::RngExt;
@@ -54,6 +55,21 @@ impl Population {
         let families = if by_family { FAMILIES } else { 1 };
         let buckets = vec![Vec::new(); families * (max_cost as usize + 1)];
         Population { max_cost, by_family, buckets, bucket_size }
+    }
+
+    /// Whether it could have come of a new one, for so many inputs and outputs.
+    pub fn check(&self, new: &Population, inputs: usize, outputs: usize) -> Result<(), String> {
+        let kind = |one: &Population| (one.max_cost, one.by_family, one.bucket_size);
+        let full = self.buckets.iter().any(|bucket| bucket.len() > self.bucket_size);
+        if kind(self) != kind(new) || self.buckets.len() != new.buckets.len() || full {
+            return Err("its population is not as its settings make it".into());
+        }
+        for individual in self.individuals() {
+            not_negative("cost", individual.cost)?;
+            not_negative("loss", individual.loss)?;
+            check_draft(&individual.draft, inputs, outputs)?;
+        }
+        Ok(())
     }
 
     /// The buckets of a draft's family up to its cost; its own is the last.

@@ -1,10 +1,12 @@
-//! What a run leaves on disk, and how it is read back: `run.ron`, `front.json`, `trace.csv`,
-//! `checkpoint.bin`.
+//! What a run leaves on disk, and how it is read back: `run.ron`, `front.json`, `trace.csv`.
 
+use super::folder::{RUN, read};
 use super::{Counts, Enumeration, Front, FrontMember, Problem, Search, Settings};
-use crate::dataset::{Column, Dataset, output_units, replace_file};
+use crate::cost::Profile;
+use crate::dataset::{Column, output_units};
 use crate::eval::{OutputError, Score};
 use crate::fit::Measure;
+use crate::grammar::{FileError, Grammar};
 use crate::program::{Names, parse};
 use crate::scene::Scene;
 use crate::stability::VerdictRecord;
@@ -13,7 +15,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
 
 /// Everything needed to repeat a run, and how far it came.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Run {
     /// The program's version.
     pub version: String,
@@ -29,9 +31,23 @@ pub struct Run {
     /// The columns that were inputs and outputs.
     pub inputs: Vec<Column>,
     pub outputs: Vec<Column>,
+    /// The grammar's name, and what it was when the run was made; records of an older version lack that.
     pub grammar: String,
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub rules: Option<Grammar>,
+    /// The same of the GPU profile.
     pub gpu: String,
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub profile: Option<Profile>,
     pub settings: Settings,
+    /// The formulas that it started from, as given.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub guesses: Vec<String>,
+    /// The cycles up to which all formulas were asked to be tried.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub exhaustive: Option<f64>,
+    #[serde(default)]
+    pub budget: Budget,
     pub machine: String,
     pub threads: usize,
     pub generations: u64,
@@ -43,6 +59,17 @@ pub struct Run {
     /// The runs that this is the union of; none for a search.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub sources: Vec<Run>,
+    /// Checksums of the files that go with it, by name.
+    #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
+    pub files: BTreeMap<String, String>,
+}
+
+/// What a search may spend, all in all; neither where it goes on until little improves.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[serde(default)]
+pub struct Budget {
+    pub seconds: Option<f64>,
+    pub generations: Option<u64>,
 }
 
 /// A run's folder that cannot be read or written.
@@ -58,6 +85,28 @@ pub enum RecordError {
     Damaged { path: PathBuf, line: usize, reason: String },
     #[error("{path}: {reason}")]
     Checkpoint { path: PathBuf, reason: String },
+    #[error("{path}: no such folder; give one that `lgp search` wrote", path = path.display())]
+    NoFolder { path: PathBuf },
+    #[error(
+        "{path}: holds no whole run (run.ron and front.json); give a folder that `lgp search` or `lgp merge` wrote (a search that was killed at once has left nothing: start it anew)",
+        path = path.display()
+    )]
+    NoRun { path: PathBuf },
+    #[error(
+        "{path}: holds no whole run: the search in it was killed or has not ended; go on with it by `lgp search --resume --out {path}`",
+        path = path.display()
+    )]
+    Unfinished { path: PathBuf },
+    #[error(
+        "{path}: not the file that run.ron was written with: it was changed, or a search has just ended and exchanged it; try again, or make it anew by `lgp search --resume`",
+        path = path.display()
+    )]
+    OfAnotherRun { path: PathBuf },
+    #[error(
+        "{path}: in use by {owner}; wait until that is done, or choose another folder",
+        path = path.display()
+    )]
+    Busy { path: PathBuf, owner: String },
 }
 
 /// A member as `front.json` has it.
@@ -110,14 +159,16 @@ impl MemberRecord {
             validation: errors(&self.validation_errors)?,
             units: output_units(&run.outputs),
         };
-        Ok(FrontMember {
+        let member = FrontMember {
             program,
             cost: self.cost,
             registers: self.registers,
             score,
             verdict: self.verdict,
             formula: self.formula,
-        })
+        };
+        member.check()?;
+        Ok(member)
     }
 }
 
@@ -130,14 +181,38 @@ impl Front {
 
     /// Reads `front.json` or `front-max.json` of a run's folder, in the measure that it was made in.
     pub fn load(path: &Path, run: &Run, measure: Measure) -> Result<Front, RecordError> {
-        let damaged = |line, reason| RecordError::Damaged { path: path.to_owned(), line, reason };
-        let text = read(path)?;
-        let records: Vec<MemberRecord> = serde_json::from_str(&text)
-            .map_err(|error| damaged(error.line(), error.to_string()))?;
-        let members: Result<Vec<_>, String> =
-            records.into_iter().map(|record| record.into_member(run)).collect();
-        Ok(Front { measure, members: members.map_err(|reason| damaged(1, reason))? })
+        Front::parse(path, &read(path)?, run, measure)
     }
+
+    /// The same of the file's text.
+    pub(super) fn parse(
+        path: &Path,
+        text: &str,
+        run: &Run,
+        measure: Measure,
+    ) -> Result<Front, RecordError> {
+        let damaged = |line, reason| RecordError::Damaged { path: path.to_owned(), line, reason };
+        let records: Vec<MemberRecord> =
+            serde_json::from_str(text).map_err(|error| damaged(error.line(), error.to_string()))?;
+        let mut members = Vec::with_capacity(records.len());
+        for (number, record) in (1..).zip(records) {
+            let member = record.into_member(run).map_err(|reason| {
+                damaged(line_of_member(text, number), format!("formula {number}: {reason}"))
+            })?;
+            members.push(member);
+        }
+        if !members.is_sorted_by(|a, b| a.cost <= b.cost) {
+            return Err(damaged(1, "the formulas are not by rising cost".into()));
+        }
+        Ok(Front { measure, members })
+    }
+}
+
+/// The line on which a member's cost, its first field, stands; the first where that is not to be seen.
+fn line_of_member(text: &str, number: usize) -> usize {
+    let mut lines = (1..).zip(text.lines());
+    let costs = lines.by_ref().filter(|(_, line)| line.trim_start().starts_with("\"cost\""));
+    costs.map(|(line, _)| line).nth(number - 1).unwrap_or(1)
 }
 
 impl Run {
@@ -159,22 +234,49 @@ impl Run {
         Names::new(inputs, outputs)
     }
 
-    /// Reads `run.ron` of a run's folder.
+    /// The grammar as it was; that of its name, if it is built in, where the record lacks it.
+    ///
+    /// # Errors
+    /// If it is neither.
+    pub fn grammar(&self) -> Result<Grammar, FileError> {
+        self.rules.clone().map_or_else(|| Grammar::find_built_in(&self.grammar), Ok)
+    }
+
+    /// The GPU profile as it was; that of its name, if it is built in, where the record lacks it.
+    pub fn profile(&self) -> Option<Profile> {
+        self.profile.clone().or_else(|| Profile::find_built_in(&self.gpu))
+    }
+
+    /// Reads `run.ron` of a run's folder, and checks it.
     pub fn load(folder: &Path) -> Result<Run, RecordError> {
-        let path = folder.join("run.ron");
-        ron::from_str(&read(&path)?).map_err(|error| RecordError::Damaged {
-            line: error.span.start.line,
-            reason: error.code.to_string(),
+        let path = folder.join(RUN);
+        Run::from_ron(&read(&path)?).map_err(|(line, reason)| RecordError::Damaged {
             path,
+            line,
+            reason,
         })
     }
 
-    /// Writes `run.ron` to a run's folder.
-    pub fn save(&self, folder: &Path) -> Result<(), RecordError> {
-        let pretty = ron::ser::PrettyConfig::default();
-        let text = ron::ser::to_string_pretty(self, pretty).expect("plain data") + "\n";
-        write(&folder.join("run.ron"), text.as_bytes())
+    /// Reads the text of `run.ron`, and checks it; or says on which line it is wrong.
+    pub(super) fn from_ron(text: &str) -> Result<Run, (usize, String)> {
+        let run: Run =
+            ron::from_str(text).map_err(|error| (error.span.start.line, error.code.to_string()))?;
+        run.check().map_err(|reason| (line_of_field(text, &reason), reason))?;
+        Ok(run)
     }
+
+    /// The text of `run.ron`.
+    pub fn to_ron(&self) -> String {
+        let pretty = ron::ser::PrettyConfig::default();
+        ron::ser::to_string_pretty(self, pretty).expect("plain data") + "\n"
+    }
+}
+
+/// The line of the first name in backquotes that a text has.
+fn line_of_field(text: &str, reason: &str) -> usize {
+    let has = |name: &str| text.lines().position(|line| line.contains(name));
+    let named = reason.split('`').skip(1).step_by(2);
+    named.filter_map(has).map(|line| line + 1).next().unwrap_or(1)
 }
 
 /// A line of `trace.csv`.
@@ -202,51 +304,7 @@ impl Search {
             errors: TRACE_COSTS.map(|cost| problem.error(self.archive().best_loss(cost))),
         }
     }
-
-    /// Writes `checkpoint.bin`: this search, for this dataset, with a checksum.
-    pub fn save(&self, folder: &Path, dataset: &Dataset) -> Result<(), RecordError> {
-        let path = folder.join("checkpoint.bin");
-        let mut bytes = CHECKPOINT_MAGIC.to_vec();
-        bytes.extend(dataset.hash().as_bytes());
-        let body = postcard::to_allocvec(self).expect("plain data");
-        bytes.extend(body);
-        let checksum = blake3::hash(&bytes);
-        bytes.extend(checksum.as_bytes());
-        write(&path, &bytes)
-    }
-
-    /// Reads `checkpoint.bin` of a run's folder.
-    ///
-    /// # Errors
-    /// If it is not whole, not of this version, or of other data.
-    pub fn load(folder: &Path, dataset: &Dataset) -> Result<Search, RecordError> {
-        let path = folder.join("checkpoint.bin");
-        let bytes = std::fs::read(&path)
-            .map_err(|reason| RecordError::Unreadable { path: path.clone(), reason })?;
-        let refuse = |reason: &str| RecordError::Checkpoint {
-            path: path.clone(),
-            reason: reason.to_owned(),
-        };
-        let hash = dataset.hash();
-        let Some((content, checksum)) = bytes.split_last_chunk::<32>() else {
-            return Err(refuse("too short for a checkpoint"));
-        };
-        if blake3::hash(content).as_bytes() != checksum {
-            return Err(refuse("damaged (its checksum does not match); start the search anew"));
-        }
-        let body = content
-            .strip_prefix(CHECKPOINT_MAGIC)
-            .ok_or_else(|| refuse("a checkpoint of another version; start the search anew"))?;
-        let body = body.strip_prefix(hash.as_bytes()).ok_or_else(|| {
-            refuse(
-                "a checkpoint of other data; give the dataset, scene and columns it was made with",
-            )
-        })?;
-        postcard::from_bytes(body).map_err(|error| refuse(&error.to_string()))
-    }
 }
-
-const CHECKPOINT_MAGIC: &[u8] = b"LGPSTATE3";
 
 /// The text of `trace.csv`, its errors in a measure that names their columns.
 pub fn trace_csv(points: &[TracePoint], measure: Measure) -> String {
@@ -261,14 +319,4 @@ pub fn trace_csv(points: &[TracePoint], measure: Measure) -> String {
         );
     }
     text
-}
-
-pub(super) fn read(path: &Path) -> Result<String, RecordError> {
-    std::fs::read_to_string(path)
-        .map_err(|reason| RecordError::Unreadable { path: path.into(), reason })
-}
-
-pub(super) fn write(path: &Path, bytes: &[u8]) -> Result<(), RecordError> {
-    replace_file(path, bytes)
-        .map_err(|reason| RecordError::Unwritable { path: path.into(), reason })
 }

@@ -5,6 +5,7 @@
 use crate::op::Op;
 use crate::program::{Arg, Draft};
 use serde::{Deserialize, Serialize};
+use std::fmt;
 use std::str::FromStr;
 
 /// The function of an output that a search looks for.
@@ -28,6 +29,16 @@ impl FromStr for Transform {
             "sqrt" => Ok(Transform::Sqrt),
             _ => Err(format!("`{text}`: a transform is rcp, log2 or sqrt")),
         }
+    }
+}
+
+impl fmt::Display for Transform {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(match self {
+            Transform::Rcp => "rcp",
+            Transform::Log2 => "log2",
+            Transform::Sqrt => "sqrt",
+        })
     }
 }
 

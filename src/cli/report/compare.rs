@@ -1,6 +1,6 @@
 //! Several runs beside each other.
 
-use super::{check_whole, content};
+use super::content;
 use crate::cli::run_folder::{self, Which};
 use crate::cli::{Exit, Failure, output};
 use crate::dataset::replace_file;
@@ -15,7 +15,6 @@ pub(super) fn write(folders: &[PathBuf], path: &Path) -> Result<usize, Failure> 
     output::check_writable(path)?;
     let mut runs = Vec::new();
     for folder in folders {
-        check_whole(folder)?;
         let (run, front) = run_folder::load(folder, Which { minimax: false })?;
         let members = front.members.iter().map(|member| {
             let errors =
@@ -26,7 +25,7 @@ pub(super) fn write(folders: &[PathBuf], path: &Path) -> Result<usize, Failure> 
             seconds: run.seconds,
             considered: run.counts.considered,
             front: members.collect(),
-            trace: content::trace(folder)?.filter(|trace| !trace.seconds.is_empty()),
+            trace: content::trace(folder, &run)?.filter(|trace| !trace.seconds.is_empty()),
         };
         runs.push((run, compared));
     }
@@ -69,7 +68,7 @@ fn check_comparable(
             ("data", run.dataset_hash == first.dataset_hash),
             ("scene", run.scene == first.scene),
             ("outputs", run.outputs == first.outputs),
-            ("GPU profile", run.gpu == first.gpu),
+            ("GPU profile", run.has_profile_of(first)),
             ("error measure", run.settings.measure == first.settings.measure),
         ];
         if let Some((what, _)) = what.iter().find(|(_, same)| !same) {

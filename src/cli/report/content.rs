@@ -10,7 +10,7 @@ use crate::eval::OutputError;
 use crate::fit::Measure;
 use crate::report::page::{self, Axis, Code, Formula, Page, PageFront, PageSpheres, Table, Trace};
 use crate::report::table::{Published, axis_title, cut};
-use crate::search::{Front, FrontMember, RecordError, Run};
+use crate::search::{Front, FrontMember, RecordError, Run, TRACE, load_text};
 use std::path::Path;
 
 /// The page, and the trace that it shows.
@@ -21,7 +21,7 @@ pub(super) fn page(gathered: &Gathered, folder: &Path) -> Result<(Page, Option<T
     let priced = Priced { run, profiles: &profiles, timings: &timings };
     let names = run.names();
     let outputs = names.outputs.len();
-    let trace = trace(folder)?;
+    let trace = trace(folder, run)?;
     let page = Page {
         title: format!("{}: {}", run.name, names.outputs.join(", ")),
         facts: facts(run, dataset.as_ref()),
@@ -50,15 +50,19 @@ pub(super) fn page(gathered: &Gathered, folder: &Path) -> Result<(Page, Option<T
 /// The GPUs that come with the program and that of the run, and its place among them.
 fn profiles(run: &Run) -> Result<(Vec<Profile>, usize), Failure> {
     let mut profiles = Profile::built_in().map(Profile::find).collect::<Result<Vec<_>, _>>()?;
-    let own = profiles.iter().position(|profile| profile.name == run.gpu);
-    let own = match (own, Profile::find(&run.gpu)) {
+    let as_built_in = |profile: &Profile| {
+        let same = |own: &Profile| own.fingerprint() == profile.fingerprint();
+        profile.name == run.gpu && run.profile.as_ref().is_none_or(same)
+    };
+    let own = profiles.iter().position(as_built_in);
+    let own = match (own, run.profile()) {
         (Some(own), _) => own,
-        (None, Ok(profile)) => {
+        (None, Some(profile)) => {
             profiles.push(profile);
             profiles.len() - 1
         }
-        // The file of a profile that is no longer there.
-        (None, Err(_)) => 0,
+        // An older version's record has only the name of a file.
+        (None, None) => 0,
     };
     Ok((profiles, own))
 }
@@ -147,14 +151,9 @@ impl Priced<'_> {
 }
 
 /// How the search went on, if that was recorded.
-pub(super) fn trace(folder: &Path) -> Result<Option<Trace>, Failure> {
-    let path = folder.join("trace.csv");
-    if !path.exists() {
-        return Ok(None);
-    }
-    let text = std::fs::read_to_string(&path)
-        .map_err(|reason| RecordError::Unreadable { path: path.clone(), reason })?;
-    let damaged = |(line, reason)| RecordError::Damaged { path: path.clone(), line, reason };
+pub(super) fn trace(folder: &Path, run: &Run) -> Result<Option<Trace>, Failure> {
+    let Some(text) = load_text(folder, run, TRACE)? else { return Ok(None) };
+    let damaged = |(line, reason)| RecordError::Damaged { path: folder.join(TRACE), line, reason };
     Ok(Some(Trace::parse(&text).map_err(damaged)?))
 }
 

@@ -11,7 +11,7 @@ use super::{Common, Exit, Failure};
 use crate::dataset::{Dataset, replace_file};
 use crate::report::page;
 use crate::report::table::Published;
-use crate::search::{Front, Run};
+use crate::search::{Front, Run, RunFolder};
 use crate::stability::Questions;
 use serde::Serialize;
 use std::path::{Path, PathBuf};
@@ -65,6 +65,7 @@ pub fn run(args: &Args, common: &Common) -> Result<(), Failure> {
         }
         [folder] => {
             let gathered = gather(folder, args.dataset.as_deref(), common)?;
+            let _owned = RunFolder::claim(folder)?;
             if args.measure {
                 timing::measure(&gathered, folder)?;
             }
@@ -103,7 +104,6 @@ fn write_file(folder: &Path, name: &str, bytes: &[u8]) -> Result<(), Failure> {
 }
 
 fn gather(folder: &Path, elsewhere: Option<&Path>, common: &Common) -> Result<Gathered, Failure> {
-    check_whole(folder)?;
     let (mut run, mut front) = run_folder::load(folder, Which { minimax: false })?;
     let (_, mut minimax) = run_folder::load(folder, Which { minimax: true })?;
     // As `lgp emit` does, so that its code and the page's are the same.
@@ -111,10 +111,14 @@ fn gather(folder: &Path, elsewhere: Option<&Path>, common: &Common) -> Result<Ga
     for front in [&mut front, &mut minimax] {
         front.judge(&questions, &run.names());
     }
-    if let Some(path) = elsewhere {
-        run.dataset = path.to_owned();
-    }
-    let subject = match Subject::of_run(&run) {
+    let found = match elsewhere {
+        Some(path) => {
+            run.dataset = path.to_owned();
+            Subject::of_run_at(&run, path)
+        }
+        None => Subject::of_run(&mut run, folder),
+    };
+    let subject = match found {
         Ok(subject) => Some(subject),
         Err(problem) if elsewhere.is_some() => {
             return Err(Failure::new(Exit::Input, anyhow::Error::msg(problem)));
@@ -129,20 +133,4 @@ fn gather(folder: &Path, elsewhere: Option<&Path>, common: &Common) -> Result<Ga
     let published = subject.as_ref().and_then(|subject| subject.published_for(&run));
     let dataset = subject.map(|subject| subject.dataset);
     Ok(Gathered { run, front, minimax, dataset, published: published.unwrap_or_default() })
-}
-
-/// Without fronts a search has not ended.
-fn check_whole(folder: &Path) -> Result<(), Failure> {
-    let holds = |file: &str| folder.join(file).exists();
-    if !folder.is_dir() || (holds("run.ron") && holds("front.json")) {
-        return Ok(());
-    }
-    let reason = match holds("checkpoint.bin") {
-        true => {
-            "the search in it was killed or has not ended; go on with it by `lgp search … --resume`"
-        }
-        false => "give a folder that `lgp search` or `lgp merge` wrote",
-    };
-    let folder = folder.display();
-    Err(Failure::new(Exit::Input, anyhow::anyhow!("{folder}: holds no whole run: {reason}")))
 }

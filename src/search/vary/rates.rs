@@ -1,6 +1,7 @@
 //! How often each kind of change is made: by how often it has paid.
 
 use super::MOVES;
+use crate::search::loaded::not_negative;
 use serde::{Deserialize, Serialize};
 
 /// How often each kind of change has led to a fit lately, and how often to an admission.
@@ -26,6 +27,11 @@ impl Rates {
             self.fitted[kind] += 1.0;
             self.admitted[kind] += f64::from(u8::from(admitted));
         }
+    }
+
+    /// Whether the counts are counts.
+    pub fn check(&self) -> Result<(), String> {
+        self.fitted.iter().chain(&self.admitted).try_for_each(|count| not_negative("rate", *count))
     }
 
     /// To be called after each generation.

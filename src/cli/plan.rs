@@ -1,0 +1,259 @@
+//! What a search is to do, as the command line says, and where it is written.
+
+use super::resume::resumed;
+use super::search::Args;
+use super::subject::{Subject, noted};
+use super::{Common, Failure, run_folder};
+use crate::cost::Profile;
+use crate::dataset::{Dataset, Split};
+use crate::fit::Measure;
+use crate::grammar::Grammar;
+use crate::program::{Draft, parse};
+use crate::search::{
+    Budget, Checkpoint, Holding, Requirement, Run, RunFolder, Settings, Transform, in_the_way,
+};
+use crate::suggest::did_you_mean;
+use std::path::{Path, PathBuf};
+
+/// Without tiers that say what they may spend.
+const MAX_COST: f64 = 40.0;
+
+/// What is not said otherwise.
+const GRAMMAR: &str = "shader";
+const GPU: &str = "gcn";
+const ISLANDS: u16 = 8;
+
+/// A search that is ready to begin or to go on, the owner of its folder.
+pub struct Plan {
+    pub subject: Subject,
+    /// With all that decides the search; its progress is that of the checkpoint, or none.
+    pub run: Run,
+    pub grammar: Grammar,
+    pub profile: Profile,
+    pub guesses: Vec<Draft>,
+    pub folder: RunFolder,
+    /// Whether another run in the folder is to be replaced.
+    pub replaces: bool,
+    /// What to go on with.
+    pub checkpoint: Option<Checkpoint>,
+}
+
+impl Plan {
+    pub fn of(args: &Args, common: &Common) -> Result<Plan, Failure> {
+        match args.resume {
+            true => resumed(args, common),
+            false => Plan::new(args, common),
+        }
+    }
+
+    fn new(args: &Args, common: &Common) -> Result<Plan, Failure> {
+        let Some(path) = &args.dataset else {
+            return Err(Failure::usage("give a dataset to search formulas for"));
+        };
+        let subject = Subject::load(path, args.scene.as_deref(), &args.columns)?;
+        let dataset = &subject.dataset;
+        let grammar = Grammar::find(args.grammar.as_deref().unwrap_or(GRAMMAR))?;
+        let gpu = args.gpu.as_deref().unwrap_or(GPU);
+        let profile = Profile::find(gpu)?;
+        let guesses = guesses(&args.guess, dataset)?;
+        let tiers_spend = subject.scene.as_ref().and_then(|scene| scene.max_cost());
+        let settings = Settings {
+            seed: common.seed(),
+            islands: args.islands.unwrap_or(ISLANDS).into(),
+            max_cost: args.max_cost.or(tiers_spend).unwrap_or(MAX_COST),
+            measure: measure(args.loss, path, &dataset.search)?,
+            immigrants: args.immigrants.unwrap_or(0.0),
+            requirements: requirements(args, dataset)?,
+            transforms: transforms(&args.transform, dataset)?,
+            ..Settings::default()
+        };
+        check_operations(&settings.requirements, &guesses, &grammar, common)?;
+        let (folder, replaces) = match &args.out {
+            Some(out) => (asked_for(out, args.force)?, Holding::of(out) != Holding::NoRun),
+            None => (free(&dataset.name, common)?, false),
+        };
+        let run = Run {
+            version: env!("CARGO_PKG_VERSION").to_owned(),
+            command: std::env::args_os().map(|word| word.to_string_lossy().into_owned()).collect(),
+            dataset: noted(path, folder.path()),
+            dataset_hash: subject.whole.hash(),
+            scene: subject.scene.clone(),
+            name: dataset.name.clone(),
+            inputs: dataset.inputs.clone(),
+            outputs: dataset.outputs.clone(),
+            grammar: grammar.name.clone(),
+            rules: Some(grammar.clone()),
+            gpu: gpu.to_owned(),
+            profile: Some(profile.clone()),
+            settings,
+            guesses: args.guess.clone(),
+            exhaustive: args.exhaustive,
+            budget: budget(args),
+            machine: machine(),
+            threads: rayon::current_num_threads(),
+            ..Run::default()
+        };
+        Ok(Plan { subject, run, grammar, profile, guesses, folder, replaces, checkpoint: None })
+    }
+}
+
+/// The folder that was asked for, unless it holds what would be lost.
+fn asked_for(out: &Path, force: bool) -> Result<RunFolder, Failure> {
+    let shown = out.display();
+    let check = || match Holding::of(out) {
+        Holding::NoRun => match in_the_way(out, &run_folder::snippets_in(out)) {
+            Some(file) => Err(Failure::usage(format!(
+                "{shown}: holds `{file}`, which is no run's and would be overwritten; choose another --out"
+            ))),
+            None => Ok(()),
+        },
+        _ if force => Ok(()),
+        Holding::Unfinished => Err(Failure::usage(format!(
+            "{shown}: holds a search that has not ended; go on with it by --resume, replace it by --force, or choose another --out"
+        ))),
+        Holding::Finished => Err(Failure::usage(format!(
+            "{shown}: holds a run already; go on with it by --resume, replace it by --force, or choose another --out"
+        ))),
+    };
+    check()?;
+    let folder = RunFolder::claim(out)?;
+    // It may have changed hands in between.
+    check()?;
+    Ok(folder)
+}
+
+/// The first of `runs/NAME`, `runs/NAME-2` and so on that holds nothing.
+fn free(name: &str, common: &Common) -> Result<RunFolder, Failure> {
+    for (number, path) in default_folders(name).enumerate() {
+        if !is_empty(&path) {
+            continue;
+        }
+        match RunFolder::claim(&path) {
+            Ok(folder) if Holding::of(&path) == Holding::NoRun => {
+                if number > 0 && !common.quiet {
+                    let first = default_folders(name).next().unwrap_or_default();
+                    eprintln!("{} is taken; this run goes to {}", first.display(), path.display());
+                }
+                return Ok(folder);
+            }
+            Ok(_) | Err(crate::search::RecordError::Busy { .. }) => {}
+            Err(error) => return Err(error.into()),
+        }
+    }
+    Err(Failure::usage("runs: there are too many runs of that name; say where by --out"))
+}
+
+/// A folder that is not there, or that only a lock, perhaps of a killed process, is in.
+fn is_empty(folder: &Path) -> bool {
+    match folder.read_dir() {
+        Ok(mut files) => files.all(|file| file.is_ok_and(|file| file.file_name() == "lock")),
+        Err(error) => error.kind() == std::io::ErrorKind::NotFound,
+    }
+}
+
+/// Where runs go unasked; a dataset's name is only that, whatever characters it has.
+pub(super) fn default_folders(name: &str) -> impl Iterator<Item = PathBuf> {
+    let plain = |c: char| c.is_alphanumeric() || matches!(c, '_' | '-' | '.' | ' ');
+    let name: String = name.chars().map(|c| if plain(c) { c } else { '_' }).collect();
+    let name = name.trim_start_matches('.').trim().to_owned();
+    let name = if name.is_empty() { "run".to_owned() } else { name };
+    let first = Path::new("runs").join(&name);
+    let next = (2..10_000).map(move |n| Path::new("runs").join(format!("{name}-{n}")));
+    std::iter::once(first).chain(next)
+}
+
+pub(super) fn budget(args: &Args) -> Budget {
+    Budget { seconds: args.time.map(|time| time.as_secs_f64()), generations: args.generations }
+}
+
+pub(super) fn guesses(texts: &[String], dataset: &Dataset) -> Result<Vec<Draft>, Failure> {
+    let names = dataset.names();
+    texts.iter().map(|text| Ok(parse(text, &names)?.into_draft())).collect()
+}
+
+/// What is to be made small; weights that are asked for must be there.
+fn measure(loss: Option<Measure>, path: &Path, split: &Split) -> Result<Measure, Failure> {
+    if loss == Some(Measure::Weighted) && split.weights.is_empty() {
+        let message = format!(
+            "--loss weighted: {} has no weights; import a table with a column `weight`, or use --loss rmse",
+            path.display()
+        );
+        return Err(Failure::usage(message));
+    }
+    Ok(loss.unwrap_or(Measure::usual(split)))
+}
+
+pub(super) fn requirements(args: &Args, dataset: &Dataset) -> Result<Vec<Requirement>, Failure> {
+    let names = dataset.names();
+    let read = |text: &String| {
+        Requirement::parse(text, &names)
+            .map_err(|reason| Failure::usage(format!("--require {reason}")))
+    };
+    let requirements: Vec<Requirement> = args.require.iter().map(read).collect::<Result<_, _>>()?;
+    let ends = requirements.iter().any(|one| matches!(one, Requirement::Ends { .. }));
+    if ends && args.loss == Some(Measure::Relative) {
+        let message = "--require ends=… goes with --loss rmse, max or weighted, not relative";
+        return Err(Failure::usage(message));
+    }
+    Ok(requirements)
+}
+
+/// What must be used must be in the grammar, or nothing could be found. A guess may go beyond it, since its
+/// user wrote it out; that is said.
+fn check_operations(
+    requirements: &[Requirement],
+    guesses: &[Draft],
+    grammar: &Grammar,
+    common: &Common,
+) -> Result<(), Failure> {
+    let used: Vec<_> = guesses.iter().flat_map(|guess| &guess.instrs).map(|i| i.op()).collect();
+    for requirement in requirements {
+        let Requirement::Operation(op) = requirement else { continue };
+        if !grammar.has(*op) && !used.contains(op) {
+            let has: Vec<_> = grammar.operations.iter().map(|(op, _)| op.name()).collect();
+            return Err(Failure::usage(format!(
+                "--require uses={op}: the grammar {} has no `{op}` (it has {}); give a --grammar that has it",
+                grammar.name,
+                has.join(", ")
+            )));
+        }
+    }
+    let is_beyond = |op: &crate::op::Op| *op != crate::op::Op::Neg && !grammar.has(*op);
+    if let Some(op) = used.iter().find(|op| is_beyond(op)).filter(|_| !common.quiet) {
+        eprintln!(
+            "warning: --guess: the grammar {} has no `{op}`; the guess is taken as it is, and only what comes of it may have `{op}`",
+            grammar.name
+        );
+    }
+    Ok(())
+}
+
+pub(super) fn transforms(
+    texts: &[String],
+    dataset: &Dataset,
+) -> Result<Vec<Option<Transform>>, Failure> {
+    let outputs = dataset.names().outputs;
+    let mut transforms = vec![None; outputs.len()];
+    for text in texts {
+        let usage = |reason: String| Failure::usage(format!("--transform {reason}"));
+        let (name, function) = text
+            .split_once('=')
+            .ok_or_else(|| usage(format!("{text}: give OUTPUT=F, as in norm=rcp")))?;
+        let place = outputs.iter().position(|output| output == name).ok_or_else(|| {
+            let meant = did_you_mean(name, outputs.iter().map(String::as_str));
+            usage(format!("{text}: there is no output `{name}`{meant}"))
+        })?;
+        transforms[place] = Some(function.parse().map_err(usage)?);
+    }
+    Ok(transforms)
+}
+
+pub(super) fn machine() -> String {
+    let cores = std::thread::available_parallelism().map_or(1, usize::from);
+    format!(
+        "{} {}, {cores} cores, {}",
+        std::env::consts::ARCH,
+        std::env::consts::OS,
+        crate::eval::Isa::best()
+    )
+}

@@ -1,0 +1,114 @@
+//! `checkpoint.bin`: all that a search goes on with, in one file, so that no two of its parts can be of
+//! different moments.
+//!
+//! A line of text says which program wrote it, as `LGPSTATE4 lgp 0.1.0`; then come the parts, in
+//! postcard's encoding, and a checksum over all before it. The encoding does not describe itself, and
+//! random streams and rules of a search may change from version to version: a checkpoint is read by the
+//! version that wrote it, and by [`LAYOUT`] alone.
+
+use super::folder::read_bytes;
+use super::{Census, RecordError, Run, Search};
+use crate::dataset::Dataset;
+use serde::{Deserialize, Serialize};
+use std::path::Path;
+
+/// To be raised whenever what is serialised of a search changes: `tests/checkpoint.rs` tells.
+const LAYOUT: u32 = 4;
+
+const MAGIC: &str = "LGPSTATE";
+
+/// The most bytes that are read.
+const MOST_BYTES: u64 = 2 << 30;
+
+/// A search, and what is known of its run so far.
+#[derive(Clone, Debug)]
+pub struct Checkpoint {
+    pub run: Run,
+    pub search: Search,
+    /// The text of `trace.csv` so far.
+    pub trace: String,
+    pub census: Census,
+}
+
+/// What follows the line of text.
+#[derive(Serialize, Deserialize)]
+struct Body {
+    /// As RON, which leaves out and fills in fields.
+    run: String,
+    trace: String,
+    census: Census,
+    search: Search,
+}
+
+fn first_line() -> String {
+    format!("{MAGIC}{LAYOUT} lgp {}\n", env!("CARGO_PKG_VERSION"))
+}
+
+impl Checkpoint {
+    /// The content of `checkpoint.bin`.
+    pub fn to_bytes(&self) -> Vec<u8> {
+        let Checkpoint { run, search, trace, census } = self.clone();
+        let body = Body { run: run.to_ron(), trace, census: census.pruned(), search };
+        let mut bytes = first_line().into_bytes();
+        bytes.extend(postcard::to_allocvec(&body).expect("plain data"));
+        let checksum = blake3::hash(&bytes);
+        bytes.extend(checksum.as_bytes());
+        bytes
+    }
+
+    /// Reads the content of a `checkpoint.bin` at `path`, and checks all of it.
+    ///
+    /// # Errors
+    /// If it is not whole, not of this version, or no search could have left it.
+    pub fn from_bytes(path: &Path, bytes: &[u8]) -> Result<Checkpoint, RecordError> {
+        let refuse = |reason: String| RecordError::Checkpoint { path: path.into(), reason };
+        let Some((content, checksum)) = bytes.split_last_chunk::<32>() else {
+            return Err(refuse("too short for a checkpoint; start the search anew".into()));
+        };
+        if !content.starts_with(MAGIC.as_bytes()) {
+            return Err(refuse("not a checkpoint; start the search anew".into()));
+        }
+        if blake3::hash(content).as_bytes() != checksum {
+            let reason = "damaged (its checksum does not match); start the search anew";
+            return Err(refuse(reason.into()));
+        }
+        let Some(body) = content.strip_prefix(first_line().as_bytes()) else {
+            let line = content.split(|&byte| byte == b'\n').next().unwrap_or_default();
+            return Err(refuse(format!(
+                "a checkpoint of another version ({}; this program reads {}); start the search anew",
+                String::from_utf8_lossy(&line[..line.len().min(40)]).escape_debug(),
+                first_line().trim_end()
+            )));
+        };
+        let (body, rest): (Body, &[u8]) =
+            postcard::take_from_bytes(body).map_err(|error| refuse(error.to_string()))?;
+        let Body { run, trace, census, search } = body;
+        let checked = || -> Result<Run, String> {
+            let run = Run::from_ron(&run).map_err(|(_, reason)| format!("its run: {reason}"))?;
+            if !rest.is_empty() || &run.settings != search.settings() {
+                return Err("its parts do not go together".into());
+            }
+            search.check(run.inputs.len(), run.outputs.len())?;
+            census.check(run.inputs.len())?;
+            Ok(run)
+        };
+        let run =
+            checked().map_err(|reason| refuse(format!("not what a search writes: {reason}")))?;
+        Ok(Checkpoint { run, search, trace, census })
+    }
+
+    /// Reads `checkpoint.bin` of a run's folder.
+    ///
+    /// # Errors
+    /// Those of [`Checkpoint::from_bytes`], or of reading the file.
+    pub fn load(folder: &Path) -> Result<Checkpoint, RecordError> {
+        let path = folder.join(super::folder::CHECKPOINT);
+        Checkpoint::from_bytes(&path, &read_bytes(&path, MOST_BYTES)?)
+    }
+
+    /// Whether it is of this data: the whole dataset, and what a scene and a choice of columns left of it.
+    pub fn is_of(&self, whole: &Dataset, chosen: &Dataset) -> bool {
+        let names = chosen.names();
+        self.run.dataset_hash == whole.hash() && self.run.names() == names
+    }
+}

@@ -1,0 +1,374 @@
+//! A run's folder: its files' names, who may write to it, and in which order, so that nobody ever reads
+//! files of two runs.
+//!
+//! | file | is |
+//! |---|---|
+//! | `checkpoint.bin` | what `--resume` goes on with: all of it, in one file ([`super::Checkpoint`]) |
+//! | `run.ron` | what is needed to repeat the run, and that it is whole ([`Run`]) |
+//! | `front.json`, `front-max.json` | its fronts |
+//! | `trace.csv`, `census.json` | how the search went on, what recurred in its formulas |
+//! | `front.txt`, `snippets/`, pictures, `report.html` | what is made of the others |
+//! | `lock` | while there is an owner: who it is |
+//!
+//! While a search goes on, only `checkpoint.bin` is written, replaced whole; so a run that is resumed can
+//! be read as it was until it has ended anew. At the end all files are written beside those that are
+//! there. Then `run.ron` and what was made of the old fronts is removed, the new files are put in their
+//! places, and `run.ron` comes last. Whenever the process is killed, a folder with `run.ron` is a whole
+//! run; one without is that of a search that has not ended, and its checkpoint is whole. `run.ron` lists
+//! the checksums of the files that are read with it: so one who reads while they are exchanged is told.
+//!
+//! The lock is the operating system's, on an open file: it ends with the process, however that ends. What
+//! is left of the file then means nothing.
+
+use super::{Front, RecordError, Run};
+use crate::dataset::{StagedFile, TEMPORARY, remove_file, replace_file};
+use crate::fit::Measure;
+use std::fs::{File, TryLockError};
+use std::io::{Read, Write};
+use std::path::{Path, PathBuf};
+use std::time::{Duration, SystemTime, UNIX_EPOCH};
+
+pub const RUN: &str = "run.ron";
+pub const CHECKPOINT: &str = "checkpoint.bin";
+/// The front in the measure that was searched for, and in maximum error.
+pub const FRONT: &str = "front.json";
+pub const MINIMAX_FRONT: &str = "front-max.json";
+pub const TRACE: &str = "trace.csv";
+pub const CENSUS: &str = "census.json";
+const LOCK: &str = "lock";
+
+/// What the page and pictures of a run are called.
+const MADE_OF_IT: [&str; 11] = [
+    "front.txt",
+    "front.svg",
+    "front-dark.svg",
+    "front.png",
+    "convergence.svg",
+    "convergence-dark.svg",
+    "convergence.png",
+    "maps.png",
+    "maps-dark.png",
+    "spheres.png",
+    "report.html",
+];
+
+/// The most bytes that are read of a text file.
+const MOST_BYTES: u64 = 256 << 20;
+
+/// What a folder holds.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Holding {
+    /// No run; perhaps other files.
+    NoRun,
+    /// A search that has not ended.
+    Unfinished,
+    /// A search or a union of searches.
+    Finished,
+}
+
+impl Holding {
+    pub fn of(folder: &Path) -> Holding {
+        let holds = |file: &str| folder.join(file).exists();
+        match (holds(RUN), holds(FRONT), holds(CHECKPOINT)) {
+            (true, true, _) => Holding::Finished,
+            (false, false, false) => Holding::NoRun,
+            _ => Holding::Unfinished,
+        }
+    }
+}
+
+/// A file of a folder that holds no run, called as a run's files are, and so in the way of one. `snippets`
+/// are the files there that are called as a run's.
+pub fn in_the_way(folder: &Path, snippets: &[String]) -> Option<String> {
+    let names = MADE_OF_IT.into_iter().chain(IDENTIFIED);
+    let mut there = names.filter(|file| folder.join(file).exists()).map(str::to_owned);
+    there.next().or_else(|| snippets.first().cloned())
+}
+
+/// A run's folder that this process alone may write to.
+#[derive(Debug)]
+pub struct RunFolder {
+    path: PathBuf,
+    _lock: Lock,
+}
+
+impl RunFolder {
+    /// Makes the folder if there is none, and becomes its owner; what a killed process has left
+    /// half-written is removed.
+    ///
+    /// # Errors
+    /// [`RecordError::Busy`] if it has an owner; [`RecordError::Unwritable`].
+    pub fn claim(path: &Path) -> Result<RunFolder, RecordError> {
+        std::fs::create_dir_all(path).map_err(unwritable(path))?;
+        let folder = RunFolder { path: path.to_owned(), _lock: Lock::take(path)? };
+        folder.sweep();
+        StagedFile::new(&path.join(RUN), b"").map_err(unwritable(path))?;
+        Ok(folder)
+    }
+
+    pub fn path(&self) -> &Path {
+        &self.path
+    }
+
+    /// Replaces the checkpoint.
+    ///
+    /// # Errors
+    /// [`RecordError::Unwritable`].
+    pub fn checkpoint(&self, bytes: &[u8]) -> Result<(), RecordError> {
+        let path = self.path.join(CHECKPOINT);
+        replace_file(&path, bytes).map_err(unwritable(&path))
+    }
+
+    /// Removes the run that is there, and nothing else, the file that says that it is whole first; and puts
+    /// the checkpoint of another in its place. `snippets` are the run's.
+    ///
+    /// # Errors
+    /// [`RecordError::Unwritable`]: where the checkpoint could not be written, all is as it was.
+    pub fn begin_anew(&self, checkpoint: &[u8], snippets: &[String]) -> Result<(), RecordError> {
+        let path = self.path.join(CHECKPOINT);
+        let staged = StagedFile::new(&path, checkpoint).map_err(unwritable(&path))?;
+        self.remove([RUN])?;
+        self.remove(MADE_OF_IT.into_iter().chain(snippets.iter().map(String::as_str)))?;
+        self.remove(IDENTIFIED)?;
+        staged.put_in_place().map_err(unwritable(&path))
+    }
+
+    /// Exchanges the run's files for others, which are all written first: `files` by name, and `run.ron`.
+    /// Files in `snippets` that are not written again are removed.
+    ///
+    /// # Errors
+    /// [`RecordError::Unwritable`]: where a file could not be written, all are as they were; where one
+    /// could not be removed or put in its place, the folder holds no finished run.
+    pub fn exchange(
+        &self,
+        run: &Run,
+        files: &[(String, Vec<u8>)],
+        snippets: &[String],
+    ) -> Result<(), RecordError> {
+        let mut run = run.clone();
+        let read_with_it = files.iter().filter(|(file, _)| IDENTIFIED.contains(&file.as_str()));
+        run.files = read_with_it.map(|(file, bytes)| (file.clone(), checksum(bytes))).collect();
+        let stage = |file: &str, bytes: &[u8]| {
+            let path = self.path.join(file);
+            self.make_folder_of(&path)?;
+            StagedFile::new(&path, bytes).map_err(unwritable(&path))
+        };
+        let staged: Result<Vec<StagedFile>, RecordError> =
+            files.iter().map(|(file, bytes)| stage(file, bytes)).collect();
+        let (staged, last) = (staged?, stage(RUN, run.to_ron().as_bytes())?);
+        self.remove([RUN])?;
+        let written = |file: &&str| files.iter().any(|(written, _)| written == file);
+        let old =
+            MADE_OF_IT.into_iter().chain(snippets.iter().map(String::as_str)).chain(IDENTIFIED);
+        self.remove(old.filter(|file| !written(file)))?;
+        for file in staged.into_iter().chain([last]) {
+            let path = file.path().to_owned();
+            file.put_in_place().map_err(unwritable(&path))?;
+        }
+        Ok(())
+    }
+
+    fn remove<'a>(&self, files: impl IntoIterator<Item = &'a str>) -> Result<(), RecordError> {
+        for file in files {
+            let path = self.path.join(file);
+            remove_file(&path).map_err(unwritable(&path))?;
+        }
+        Ok(())
+    }
+
+    /// The folder within the run's in which a file is to be: no link that leads out of it.
+    fn make_folder_of(&self, path: &Path) -> Result<(), RecordError> {
+        let folder = path.parent().unwrap_or(&self.path);
+        if folder != self.path && folder.is_symlink() {
+            let reason = std::io::Error::other("it is a link to elsewhere");
+            return Err(unwritable(folder)(reason));
+        }
+        std::fs::create_dir_all(folder).map_err(unwritable(folder))
+    }
+
+    /// Removes temporaries: none is in use, since nobody else is the owner.
+    fn sweep(&self) {
+        let folders = [self.path.clone(), self.path.join("snippets")];
+        for folder in folders.iter().filter(|folder| !folder.is_symlink()) {
+            let files = folder.read_dir().into_iter().flatten().flatten();
+            let names = files.map(|file| (file.file_name(), file.path()));
+            let temporaries =
+                names.filter(|(name, _)| name.to_string_lossy().starts_with(TEMPORARY));
+            temporaries.for_each(|(_, path)| drop(remove_file(&path)));
+        }
+    }
+}
+
+/// The files that are read together with `run.ron`.
+const IDENTIFIED: [&str; 4] = [FRONT, MINIMAX_FRONT, TRACE, CENSUS];
+
+fn checksum(bytes: &[u8]) -> String {
+    blake3::hash(bytes).to_hex().as_str()[..16].to_owned()
+}
+
+/// Reads the run of a folder.
+///
+/// # Errors
+/// If the folder holds none, it has not ended, or it is not what a search writes.
+pub fn load_run(folder: &Path) -> Result<Run, RecordError> {
+    if !folder.exists() {
+        return Err(RecordError::NoFolder { path: folder.into() });
+    }
+    match Holding::of(folder) {
+        Holding::Finished => Run::load(folder),
+        Holding::Unfinished if folder.join(CHECKPOINT).exists() => {
+            Err(RecordError::Unfinished { path: folder.into() })
+        }
+        _ => Err(RecordError::NoRun { path: folder.into() }),
+    }
+}
+
+/// Reads a front of a folder's run: that in maximum error, or the one that was searched for.
+///
+/// # Errors
+/// If it cannot be read, or is not the run's.
+pub fn load_front(folder: &Path, run: &Run, minimax: bool) -> Result<Front, RecordError> {
+    let (file, measure) = match minimax {
+        true => (MINIMAX_FRONT, Measure::Max),
+        false => (FRONT, run.settings.measure),
+    };
+    let text = load_text(folder, run, file)?.ok_or_else(|| RecordError::Unreadable {
+        path: folder.join(file),
+        reason: std::io::ErrorKind::NotFound.into(),
+    })?;
+    Front::parse(&folder.join(file), &text, run, measure)
+}
+
+/// The text of a file that goes with a run; nothing where there is none.
+///
+/// # Errors
+/// If it cannot be read, or is not the one that the run was written with.
+pub fn load_text(folder: &Path, run: &Run, file: &str) -> Result<Option<String>, RecordError> {
+    let path = folder.join(file);
+    if !path.exists() && !run.files.contains_key(file) {
+        return Ok(None);
+    }
+    let text = read(&path)?;
+    match run.files.get(file) {
+        Some(known) if *known != checksum(text.as_bytes()) => {
+            Err(RecordError::OfAnotherRun { path })
+        }
+        _ => Ok(Some(text)),
+    }
+}
+
+/// The text of a file, which must not be too large.
+pub(super) fn read(path: &Path) -> Result<String, RecordError> {
+    let bytes = read_bytes(path, MOST_BYTES)?;
+    String::from_utf8(bytes).map_err(|error| {
+        let valid = &error.as_bytes()[..error.utf8_error().valid_up_to()];
+        RecordError::Damaged {
+            path: path.into(),
+            line: 1 + valid.iter().filter(|byte| **byte == b'\n').count(),
+            reason: "not text in UTF-8".into(),
+        }
+    })
+}
+
+pub(super) fn read_bytes(path: &Path, most: u64) -> Result<Vec<u8>, RecordError> {
+    let unreadable = |reason| RecordError::Unreadable { path: path.into(), reason };
+    let file = File::open(path).map_err(unreadable)?;
+    if !file.metadata().map_err(unreadable)?.is_file() {
+        return Err(unreadable(std::io::Error::other("it is not a file")));
+    }
+    let mut bytes = Vec::new();
+    file.take(most + 1).read_to_end(&mut bytes).map_err(unreadable)?;
+    match bytes.len() as u64 <= most {
+        true => Ok(bytes),
+        false => {
+            let reason = format!("it has more than {} MiB, which no run leaves", most >> 20);
+            Err(unreadable(std::io::Error::other(reason)))
+        }
+    }
+}
+
+pub(super) fn unwritable(path: &Path) -> impl FnOnce(std::io::Error) -> RecordError {
+    let path = path.to_owned();
+    move |reason| RecordError::Unwritable { path, reason }
+}
+
+/// A folder's lock.
+#[derive(Debug)]
+struct Lock {
+    path: PathBuf,
+    /// Locked; nothing where the file system has no locks.
+    file: Option<File>,
+}
+
+impl Lock {
+    fn take(folder: &Path) -> Result<Lock, RecordError> {
+        let path = folder.join(LOCK);
+        loop {
+            if path.symlink_metadata().is_ok_and(|known| !known.is_file()) {
+                let reason = std::io::Error::other("it is not a file; remove it");
+                return Err(unwritable(&path)(reason));
+            }
+            let mut options = File::options();
+            let file = options.read(true).write(true).create(true).truncate(false).open(&path);
+            let file = file.map_err(unwritable(&path))?;
+            match file.try_lock() {
+                Ok(()) if is_at(&file, &path) => {
+                    introduce(&file);
+                    return Ok(Lock { path, file: Some(file) });
+                }
+                // The owner before has removed the file in between.
+                Ok(()) => {}
+                Err(TryLockError::WouldBlock) => {
+                    let owner = described(&std::fs::read_to_string(&path).unwrap_or_default());
+                    return Err(RecordError::Busy { path: folder.into(), owner });
+                }
+                Err(TryLockError::Error(_)) => return Ok(Lock { path, file: None }),
+            }
+        }
+    }
+}
+
+impl Drop for Lock {
+    fn drop(&mut self) {
+        // Before it is unlocked, so that what is removed is no other's.
+        if self.file.is_some() {
+            let _ = std::fs::remove_file(&self.path);
+        }
+    }
+}
+
+/// Writes down who has the lock, for messages only.
+fn introduce(mut file: &File) {
+    let text = format!("{} {}\n", std::process::id(), now().as_secs());
+    let _ = file.set_len(0).and_then(|()| file.write_all(text.as_bytes()));
+}
+
+/// `process 1234, for 12 s`, as far as it is known.
+fn described(text: &str) -> String {
+    let mut words = text.split_whitespace().map_while(|word| word.parse::<u64>().ok());
+    match (words.next(), words.next()) {
+        (Some(process), Some(since)) => {
+            format!("process {process}, for {} s", now().as_secs().saturating_sub(since))
+        }
+        _ => "another process".to_owned(),
+    }
+}
+
+fn now() -> Duration {
+    SystemTime::now().duration_since(UNIX_EPOCH).unwrap_or_default()
+}
+
+/// Whether the file is still the one at the path.
+#[cfg(unix)]
+fn is_at(file: &File, path: &Path) -> bool {
+    use std::os::unix::fs::MetadataExt;
+    let identity = |known: std::fs::Metadata| (known.dev(), known.ino());
+    let there = path.symlink_metadata().map(identity);
+    file.metadata().map(identity).is_ok_and(|own| there.is_ok_and(|there| own == there))
+}
+
+/// An open file cannot be removed there.
+#[cfg(not(unix))]
+fn is_at(_: &File, _: &Path) -> bool {
+    true
+}
