@@ -3,7 +3,7 @@
 /// The candidate that a misspelt name was probably meant to be, if any is near: by edit distance
 /// (insertions, deletions, substitutions and swaps of neighbours, ignoring case) up to a third
 /// of the longer name, or else one that `name` abbreviates (`nv` for `n_dot_v`). Ties go to the
-/// first.
+/// first. Long names, and candidates after the first ten thousand, are not compared.
 ///
 /// ```
 /// use lgp::suggest::nearest;
@@ -14,10 +14,16 @@
 /// assert_eq!(nearest("temperature", columns), None);
 /// ```
 pub fn nearest<'a>(name: &str, candidates: impl IntoIterator<Item = &'a str>) -> Option<&'a str> {
+    if name.len() > LONGEST {
+        return None;
+    }
     let name = name.to_lowercase();
     let mut best: Option<(usize, &str)> = None;
     let mut abbreviated = None;
-    for candidate in candidates {
+    for candidate in candidates.into_iter().take(MOST) {
+        if candidate.len() > LONGEST {
+            continue;
+        }
         let letters = candidate.to_lowercase();
         let distance = strsim::damerau_levenshtein(&name, &letters);
         let longer = name.chars().count().max(letters.chars().count());
@@ -30,6 +36,10 @@ pub fn nearest<'a>(name: &str, candidates: impl IntoIterator<Item = &'a str>) ->
     }
     best.map(|(_, candidate)| candidate).or(abbreviated)
 }
+
+/// What is compared takes time by the product of the lengths.
+const LONGEST: usize = 100;
+const MOST: usize = 10_000;
 
 fn abbreviates(short: &str, long: &str) -> bool {
     let mut rest = long.chars();

@@ -132,13 +132,13 @@ fn a_constant_changed_in_its_third_digit_is_caught() {
     let dataset = Dataset::load(&data()).unwrap();
     for (path, snippet) in snippets() {
         let language = Language::from_name(path.extension().unwrap().to_str().unwrap()).unwrap();
-        let (original, _) = read_back(language, &snippet).unwrap();
+        let original = read_back(language, &snippet).unwrap();
         let body = snippet.find("{\n").unwrap();
         for range in constants(&snippet[body..]) {
             let range = range.start + body..range.end + body;
             let mut changed = snippet.clone();
             changed.replace_range(range.clone(), &mutated(&snippet[range.clone()]));
-            let (program, _) = read_back(language, &changed).unwrap();
+            let program = read_back(language, &changed).unwrap();
             let columns = &dataset.search.columns;
             let differs = (0..dataset.search.rows()).any(|row| {
                 let sample = [columns[0][row], columns[1][row]];
@@ -178,6 +178,144 @@ fn a_clamp_may_have_any_bounds() {
         std::fs::write(&file, code.replace("0.25, 0.75);", "0.0, 0.75);")).unwrap();
         assert_eq!(verify(&file, "1", &[]).status.code(), Some(4));
     }
+}
+
+fn emitted(run: &str, language: &str, more: &[&str]) -> String {
+    let mut command = Command::cargo_bin("lgp").expect("the program is built");
+    command.args(["emit", run, "--lang", language]).args(more).current_dir(repository());
+    let output = command.output().expect("it runs");
+    assert!(output.status.success(), "{}", text(&output.stderr));
+    text(&output.stdout)
+}
+
+const LANGUAGES: [(&str, &str); 4] =
+    [("hlsl", "hlsl"), ("wgsl", "wgsl"), ("glsl", "glsl"), ("msl", "metal")];
+
+/// Whatever `emit` writes is read in its precision, and is its formula; in halves, too, a number
+/// that is another half, or another single where it meets singles, is not.
+#[test]
+fn every_precision_is_verified() {
+    let folder = tempfile::tempdir().unwrap();
+    let mut caught = 0;
+    for (language, extension) in LANGUAGES {
+        for more in [&["--half"][..], &["--half-error", "0.004"], &[]] {
+            let file = folder.path().join(format!("a.{extension}"));
+            let code = emitted("results/dfg", language, &[&["--pick", "9"], more].concat());
+            assert!(code.contains("// formula: "), "{code}");
+            std::fs::write(&file, &code).unwrap();
+            let output = verify(&file, "0.1", &["--json"]);
+            assert_eq!(output.status.code(), Some(0), "{code}{}", text(&output.stderr));
+            let verified: Value = serde_json::from_slice(&output.stdout).unwrap();
+            assert_eq!(verified["as_commented"], true);
+            assert_eq!(verified["half"], !more.is_empty());
+            if !more.is_empty() {
+                caught += numbers_of_halves_caught(language, &code);
+            }
+        }
+    }
+    assert!(caught > 40, "{caught}");
+}
+
+fn numbers_of_halves_caught(language: &str, code: &str) -> usize {
+    let language = Language::from_name(language).unwrap();
+    let original = read_back(language, code).unwrap();
+    let formula = original.stated(&original.names.outputs).unwrap().expect("a formula").program;
+    assert!(original.is(&formula));
+    let body = code.find("{\n").unwrap();
+    let mut caught = 0;
+    for range in constants(&code[body..]) {
+        let range = range.start + body..range.end + body;
+        let digits = code[range.clone()].trim_end_matches(['h', 'f']);
+        let suffix = &code[range.clone()][digits.len()..];
+        let mut changed = code.to_owned();
+        changed.replace_range(range.clone(), &(mutated(digits) + suffix));
+        let half = |digits: &str| half::f16::from_f32(digits.parse().unwrap());
+        let seen = suffix.is_empty() || half(&mutated(digits)) != half(digits);
+        let is = read_back(language, &changed).unwrap().is(&formula);
+        assert_eq!(!is, seen, "{changed}");
+        caught += usize::from(seen);
+    }
+    caught
+}
+
+/// No change of the line with the formula makes it a line like any other.
+#[test]
+fn a_formula_in_a_comment_is_never_passed_over() {
+    let code = emitted("results/dfg", "hlsl", &["--pick", "9"]);
+    let read = |code: &str| read_back(Language::Hlsl, code).unwrap();
+    let outputs = read(&code).names.outputs;
+    let start = code.find("formula:").unwrap();
+    let end = start + code[start..].find('\n').unwrap();
+    let (mut refused, mut told) = (0, 0);
+    let original = read(&code).stated(&outputs).unwrap().unwrap().program;
+    for at in start..end {
+        for other in ["", "q", "1", " ", "=", "*", ")"] {
+            let mut changed = code.clone();
+            changed.replace_range(at..=at, other);
+            match read(&changed).stated(&outputs) {
+                Err(_) => refused += 1,
+                Ok(None) => panic!("passed over: {}", &changed[start..end]),
+                Ok(Some(stated)) => told += usize::from(stated.program != original),
+            }
+        }
+    }
+    assert!(refused > 100 && told > 100, "{refused} {told}");
+}
+
+#[test]
+fn comments_are_held_to_what_they_say() {
+    let folder = tempfile::tempdir().unwrap();
+    let formula = "bias = exp2(-(7*n_dot_v + 4*roughness^2))";
+    for (comment, code, expected) in [
+        (format!("// formula: {formula}"), 0, ""),
+        (format!("// {formula}"), 0, ""),
+        (format!("/* {formula} */"), 0, ""),
+        (format!("/*\n * formula: {formula}\n */"), 0, ""),
+        ("// for bias = high roughness".to_owned(), 3, "line 1: a comment gives `bias` a value"),
+        (format!("// {formula} (paper)"), 3, "line 1: a comment gives `bias` a value"),
+        (format!("// {formula}\n// was: bias = 1"), 3, "line 2: a comment gives `bias` a value"),
+        (format!("// {formula}\n// bias = 1"), 3, "lines 1 and 2 both are the formula"),
+        (format!("// formula: {formula}\n// bias = 1"), 0, ""),
+        (format!("// formula: {formula}\n// formula: {formula}"), 3, "lines 1 and 2 both"),
+        (format!("// formula: {formula})"), 3, "line 1: the formula in the comment cannot be read"),
+        ("// formula:".to_owned(), 3, "line 1: the formula in the comment cannot be read"),
+        (format!("// formula: {}", formula.replace('7', "7.5")), 4, "(line 1)"),
+        (format!("// {}", formula.replace('7', "7.5")), 4, "(line 1)"),
+    ] {
+        let file = folder.path().join("bias.glsl");
+        std::fs::write(&file, format!("{comment}\n{BIAS}")).unwrap();
+        let output = verify(&file, "0.07", &[]);
+        let message = text(&output.stderr);
+        assert_eq!(output.status.code(), Some(code), "{comment}: {message}");
+        assert!(message.contains(expected), "{comment}: {message}");
+    }
+}
+
+/// Integer division, a type of integers, a line that continues a comment.
+#[test]
+fn what_a_compiler_would_read_otherwise_is_refused_with_its_line() {
+    let folder = tempfile::tempdir().unwrap();
+    let code = BIAS.replace("return", "float bias =").replace("}", "    return bias;\n}");
+    for (changed, expected) in [
+        (code.replace("4.0", "(19/5)"), "line 2, column"),
+        (code.replace("float bias", "int bias"), "line 2, column 5: `int` cannot be"),
+        (code.replace("    float bias", "    // note \\\n    float bias"), "line 2, column"),
+        (format!("#define bias other\n{code}"), "line 1, column 1"),
+        (code.replace("    return", "    float bias = 1.0;\n    return"), "line 3, column 11"),
+    ] {
+        let file = folder.path().join("bias.hlsl");
+        std::fs::write(&file, &changed).unwrap();
+        let output = verify(&file, "9", &[]);
+        let message = text(&output.stderr);
+        assert_eq!(output.status.code(), Some(3), "{changed}: {message}");
+        assert!(message.contains("bias.hlsl") && message.contains(expected), "{message}");
+        assert!(output.stdout.is_empty());
+    }
+    let endless = folder.path().join("zero.hlsl");
+    std::os::unix::fs::symlink("/dev/zero", &endless).unwrap();
+    let output = verify(&endless, "1", &[]);
+    assert_eq!(output.status.code(), Some(3));
+    assert!(text(&output.stderr).contains("1 MiB"), "{}", text(&output.stderr));
 }
 
 const BIAS: &str = "float dfg_bias(float n_dot_v, float roughness) {

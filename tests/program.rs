@@ -2,7 +2,7 @@
 
 use lgp::op::Op;
 use lgp::program::{
-    Arg, Constants, Draft, Names, Program, effective, parse, print, structural_hash,
+    Arg, Constants, Draft, Names, Program, effective, parse, parse_open, print, structural_hash,
 };
 use proptest::prelude::*;
 
@@ -58,7 +58,10 @@ proptest! {
         let text = print(&program, &names);
         let parsed = parse(&text, &names).map_err(|e| TestCaseError::fail(format!("{text}\n{e}")))?;
         prop_assert_eq!(print(&parsed, &names), print(&effective(&parsed), &names));
-        prop_assert_eq!(hash(&parsed), hash(&program), "{}", text);
+        prop_assert!(![" + -", " - -"].iter().any(|signs| text.contains(signs)), "{}", text);
+        // Signs stand elsewhere than they did, and stay there.
+        let again = parse(&print(&parsed, &names), &names).unwrap();
+        prop_assert_eq!(hash(&again), hash(&parsed), "{}", text);
         for sample in SAMPLES {
             prop_assert_eq!(bits(&parsed.evaluate(&sample)), bits(&program.evaluate(&sample)));
         }
@@ -101,6 +104,62 @@ proptest! {
         draft.instrs[at] = lgp::program::Instr::new(other, &args);
         prop_assert_ne!(hash(&Program::verify(draft).unwrap()), hash(&program));
     }
+}
+
+#[test]
+fn signs_stand_where_there_are_fewest() {
+    let names = Names::new(["x", "t0"], ["y"]);
+    for (text, expected) in [
+        ("y = 0.23 - -0.96/t0", "y = 0.23 + 0.96/t0"),
+        ("y = x + -0.004", "y = x - 0.004"),
+        ("y = -0.5 + x", "y = x - 0.5"),
+        ("y = x + -(x*t0)", "y = x - x*t0"),
+        ("y = x - -(x + t0)", "y = x + (x + t0)"),
+        ("y = x - t0*-2", "y = x + 2*t0"),
+        ("y = -2*-x", "y = 2*x"),
+        ("y = -(-x)", "y = x"),
+        ("y = -x/-t0", "y = x/t0"),
+        ("y = -(-2*x)", "y = 2*x"),
+        ("y = -x + -t0", "y = -x - t0"),
+        ("y = -(x - t0)", "y = -(x - t0)"),
+        ("y = max(-x, -1)", "y = max(-x, -1)"),
+        ("y = x - 0", "y = x - 0"),
+        ("y = x + -0", "y = x - 0"),
+    ] {
+        let program = parse(text, &names).unwrap();
+        assert_eq!(print(&program, &names), expected, "{text}");
+        let again = parse(expected, &names).unwrap();
+        for sample in SAMPLES {
+            assert_eq!(bits(&again.evaluate(&sample)), bits(&program.evaluate(&sample)), "{text}");
+        }
+    }
+}
+
+#[test]
+fn text_of_any_length_is_read_or_refused_and_its_places_are_shown() {
+    let names = Names::new(["x"], ["y"]);
+    let sum = |terms: u32, end: &str| {
+        let terms: Vec<String> = (0..terms).map(|i| format!("x*{i}")).collect();
+        format!("y = {}{end}", terms.join(" + "))
+    };
+    assert_eq!(parse(&sum(30_000, ""), &names).unwrap().instrs.len(), 59_999);
+    let shown = |text: &str| {
+        let message = parse(text, &names).unwrap_err().to_string();
+        assert!(message.len() < 700, "{}", message.len());
+        message
+    };
+    assert!(shown(&sum(200_000, "")).contains("at most 1 MiB"));
+    assert!(shown(&sum(70_000, "")).contains("more than 65535 operations"));
+    assert!(shown(&sum(30_000, " + z")).contains("unknown name `z`"));
+    assert!(shown(&format!("y = {}\u{1b}", " ".repeat(70_000))).contains("column 70005"));
+    assert!(shown(&format!("y = {}", "x + ".repeat(20_000))).contains("ends where a value"));
+    let far: String = (0..20_000).map(|i| format!("t{i} = x; ")).collect();
+    assert!(shown(&format!("{far}y = t2000q")).contains("did you mean"));
+    let long = "a".repeat(500_000);
+    assert!(parse(&format!("{long} = x; y = {long}b"), &names).is_err());
+    let inputs: Vec<String> = (0..70_000).map(|i| format!("v{i}")).collect();
+    let open = parse_open(&format!("y = {}", inputs.join("+")), &[]).unwrap_err().to_string();
+    assert!(open.contains("more than 65535"), "{}", &open[..200]);
 }
 
 #[test]

@@ -124,7 +124,7 @@ fn rules_rewrite_as_they_say() {
         ("f = y*rcp(x)", "f = y/x"),
         ("f = mad(x, y, 1)", "f = x*y + 1"),
         ("f = x + 2*3", "f = x + 6"),
-        ("f = 1*x - 0.5", "f = x + -0.5"),
+        ("f = 1*x - 0.5", "f = x - 0.5"),
         ("f = y + -1*x", "f = y - x"),
         ("f = y/exp2(x)", "f = y*exp2(-x)"),
         ("f = 3/exp2(2*x)", "f = 3*exp2(-2*x)"),

@@ -12,6 +12,9 @@ use serde::Serialize;
 use std::path::PathBuf;
 
 /// Write a formula of a run as a function ready to paste
+///
+/// `lgp verify` reads it back. Where a base and an exponent may both be 0, languages differ: `pow(0, 0)`
+/// counts as NaN here, as in shaders that compute exp2(y*log2(x)); C, Rust, Python and MSL say 1.
 #[derive(clap::Args)]
 pub struct Args {
     /// A folder that `lgp search` wrote

@@ -112,7 +112,7 @@ fn page(info: &Info) -> String {
         line(format!("incumbents  {}", info.incumbents.join(", ")));
     }
     let all = info.inputs.iter().chain(&info.outputs);
-    let width = all.map(|column| column.name.len()).max().unwrap_or(0).max("column".len());
+    let width = all.map(|column| column.name.len()).max().unwrap_or(0).max("column".len()).min(60);
     line(format!(
         "\n        {:width$}  {:<8}  {:<22}  {:<22}  mean",
         "column", "unit", "domain", "search split"

@@ -278,7 +278,7 @@ fn header(run: &Run, member: &FrontMember) -> Vec<String> {
         }
     }
     header.extend(verdict_lines(&member.verdict));
-    header.push(member.formula.clone());
+    header.push(emit::formula_line(&member.formula));
     header
 }
 

@@ -2,21 +2,25 @@ use super::columns::Columns;
 use super::subject::Subject;
 use super::{Common, Exit, Failure};
 use crate::dataset::Dataset;
-use crate::emit::{Language, read_back};
+use crate::emit::{Language, MAX_SNIPPET, ReadBack, Stated, StatedError, read_back};
 use crate::eval::{Evaluator, OutputError, Samples, Score, Tape};
 use crate::op::Op;
-use crate::program::{Arg, Names, Program, parse};
+use crate::program::{Arg, Names, Program};
 use crate::report::table::error_text;
 use crate::suggest::did_you_mean;
 use serde::Serialize;
 use std::collections::BTreeMap;
+use std::fmt::Display;
+use std::io::Read;
 use std::path::{Path, PathBuf};
 
 /// Verify a shader file against the data, for your own CI
 ///
-/// Reads the function back, straight-line code of floats as `lgp emit` writes it, and evaluates it on
-/// every sample. It fails, with exit code 4, where the error is too large, and where the code does
-/// not compute the formula in the comment above it, if there is one.
+/// Reads the function back, straight-line code of floats or halves as `lgp emit` writes it, and evaluates
+/// it on every sample in that precision. It fails, with exit code 4, where the error is too large, and
+/// where the code does not compute the formula in the comment above it, if there is one: the line marked
+/// by `formula:`, or else the one that says `OUTPUT = …`. What compilers might understand otherwise is
+/// refused with its line: integers, other types, lines of the preprocessor, a backslash at a line's end.
 #[derive(clap::Args)]
 pub struct Args {
     /// A .hlsl, .wgsl, .glsl or .metal file with one function
@@ -37,6 +41,8 @@ pub struct Args {
 #[derive(Serialize)]
 struct Verified {
     met: bool,
+    /// Whether it is a function of halves, and judged as one.
+    half: bool,
     max_error_allowed: f64,
     rmse: f64,
     max_error: f64,
@@ -56,46 +62,78 @@ fn error_bound(text: &str) -> Result<f64, String> {
 
 pub fn run(args: &Args, common: &Common) -> Result<(), Failure> {
     let language = language_of(&args.snippet)?;
-    let text = std::fs::read_to_string(&args.snippet)
-        .map_err(|error| unusable(&args.snippet, &format!("cannot be read: {error}")))?;
-    let (program, names) =
-        read_back(language, &text).map_err(|error| unusable(&args.snippet, &error.to_string()))?;
+    let text = snippet_text(&args.snippet)?;
+    let code = read_back(language, &text).map_err(|error| unusable(&args.snippet, &error))?;
     let Subject { dataset: whole, .. } =
         Subject::load(&args.dataset, args.scene.as_deref(), &Columns::default())?;
-    let names = columns(names, args.outputs.as_deref(), &whole, &args.snippet)?;
+    let names = columns(code.names.clone(), args.outputs.as_deref(), &whole, &args.snippet)?;
     let dataset = whole.select(Some(&names.inputs), Some(&names.outputs))?;
-    let score = Score::of(&program, &dataset, &mut Evaluator::default());
-    let formula = commented(&text, &names);
-    let mismatch =
-        formula.as_ref().and_then(|formula| difference(&program, formula, &dataset, &names).err());
+    let score = score(&code, &dataset);
+    let stated = stated(&code, &names).map_err(|error| unusable(&args.snippet, &error))?;
+    let mismatch = stated.as_ref().and_then(|stated| mismatch(&code, stated, &dataset, &names));
     let (search, validation) = (score.joint_search(), score.joint_validation());
     let met = score.is_finite() && search.rmse <= args.max_error && mismatch.is_none();
     let verified = Verified {
         met,
+        half: code.in_half,
         max_error_allowed: args.max_error,
         rmse: search.rmse,
         max_error: search.max,
         validation,
         errors: names.outputs.iter().cloned().zip(score.search.iter().copied()).collect(),
-        as_commented: formula.map(|_| mismatch.is_none()),
+        as_commented: stated.map(|_| mismatch.is_none()),
     };
     common.result(&verified, &shown(&verified))?;
-    let path = args.snippet.display();
-    let unmet =
-        |reason: String| Err(Failure::new(Exit::Unmet, anyhow::anyhow!("{path}: {reason}")));
+    let unmet = |reason: String| Err(unmet(&args.snippet, &reason));
     match mismatch {
         _ if !score.is_finite() => unmet("not finite on every sample".into()),
         _ if search.rmse > args.max_error => {
             unmet(format!("RMSE {}, more than {}", error_text(search.rmse), args.max_error))
         }
-        Some(where_) => unmet(format!(
-            "the code does not compute the formula in its comment: {where_}; mend the code, or delete that line of the comment if the change is meant"
-        )),
+        Some(reason) => unmet(reason),
         None => Ok(()),
     }
 }
 
-fn unusable(path: &Path, reason: &str) -> Failure {
+fn unmet(path: &Path, reason: &dyn Display) -> Failure {
+    Failure::new(Exit::Unmet, anyhow::anyhow!("{}: {reason}", path.display()))
+}
+
+/// The file, as far as a snippet can be long.
+fn snippet_text(path: &Path) -> Result<String, Failure> {
+    let cannot = |error: std::io::Error| unusable(path, &format!("cannot be read: {error}"));
+    let mut text = Vec::new();
+    let file = std::fs::File::open(path).map_err(cannot)?;
+    file.take(MAX_SNIPPET as u64 + 1).read_to_end(&mut text).map_err(cannot)?;
+    if text.len() > MAX_SNIPPET {
+        return Err(unusable(path, &"longer than a snippet can be (1 MiB)"));
+    }
+    String::from_utf8(text).map_err(|error| {
+        let at = error.utf8_error().valid_up_to();
+        let line = error.as_bytes()[..at].iter().filter(|&&byte| byte == b'\n').count() + 1;
+        unusable(path, &format!("line {line}: not UTF-8 text"))
+    })
+}
+
+/// In the code's own precision.
+fn score(code: &ReadBack, dataset: &Dataset) -> Score {
+    if !code.in_half {
+        return Score::of(&code.program, dataset, &mut Evaluator::default());
+    }
+    Score::of_values(dataset, |split| {
+        let mut outputs = vec![Vec::with_capacity(split.rows()); code.program.outputs.len()];
+        for row in 0..split.rows() {
+            let inputs: Vec<f32> =
+                split.columns[..code.program.inputs].iter().map(|column| column[row]).collect();
+            for (output, value) in outputs.iter_mut().zip(code.evaluate(&inputs)) {
+                output.push(value);
+            }
+        }
+        outputs
+    })
+}
+
+fn unusable(path: &Path, reason: &dyn Display) -> Failure {
     Failure::new(Exit::Input, anyhow::anyhow!("{}: {reason}", path.display()))
 }
 
@@ -103,7 +141,7 @@ fn language_of(path: &Path) -> Result<Language, Failure> {
     let extension = path.extension().unwrap_or_default().to_string_lossy().to_lowercase();
     let found = Language::SHADING.iter().find(|language| language.extension() == extension);
     found.copied().ok_or_else(|| {
-        unusable(path, "its name says no language that can be read: .hlsl, .wgsl, .glsl or .metal")
+        unusable(path, &"its name says no language that can be read: .hlsl, .wgsl, .glsl or .metal")
     })
 }
 
@@ -151,10 +189,28 @@ fn columns(
     Ok(names)
 }
 
-/// The formula in a comment, as `lgp emit` leaves it.
-fn commented(text: &str, names: &Names) -> Option<Program> {
-    let comments = text.lines().filter_map(|line| line.trim().strip_prefix("//"));
-    comments.filter_map(|line| parse(line.trim(), names).ok()).next_back()
+/// The formula in the comment, which calls the outputs what the dataset does, or the function.
+fn stated(code: &ReadBack, names: &Names) -> Result<Option<Stated>, StatedError> {
+    let as_function = || code.stated(&code.names.outputs);
+    match code.stated(&names.outputs) {
+        Ok(None) => as_function(),
+        Err(error) => as_function().ok().flatten().map(Some).ok_or(error),
+        found => found,
+    }
+}
+
+/// How the code is not the formula that its comment says.
+fn mismatch(code: &ReadBack, stated: &Stated, dataset: &Dataset, names: &Names) -> Option<String> {
+    let reason = match code.in_half {
+        true if code.is(&stated.program) => return None,
+        true => "its operations and numbers are others".to_owned(),
+        false => difference(&code.program, &stated.program, dataset, names).err()?,
+    };
+    Some(format!(
+        "the code does not compute the formula in its comment (line {}): {reason}; mend the code, or delete \
+         that line of the comment if the change is meant",
+        stated.line
+    ))
 }
 
 /// The program with each `mad` as a product and a sum, as GLSL has it.
@@ -213,7 +269,8 @@ fn shown(verified: &Verified) -> String {
     let line = |what: &str, rmse: f64, max: f64| {
         format!("{what}: RMSE {}, max {}\n", error_text(rmse), error_text(max))
     };
-    let mut text = line("search split", verified.rmse, verified.max_error);
+    let mut text = if verified.half { "in half precision\n" } else { "" }.to_owned();
+    text += &line("search split", verified.rmse, verified.max_error);
     text += &line("validation split", verified.validation.rmse, verified.validation.max);
     if verified.errors.len() > 1 {
         for (name, error) in &verified.errors {

@@ -138,6 +138,8 @@ fn use_counts(program: &Program, forms: &[Form]) -> Vec<u32> {
 struct Code {
     text: String,
     binding: Binding,
+    /// The negated value and how it binds, where that takes a sign away.
+    negated: Option<(String, Binding)>,
     /// Whether it is a whole expression, that could be given a name instead.
     in_place: bool,
     /// Whether its value is a half.
@@ -146,7 +148,14 @@ struct Code {
 
 impl Code {
     fn name(text: String, syntax: &Syntax) -> Code {
-        Code { text, binding: Binding::Atom, in_place: false, half: syntax.half }
+        let binding = Binding::Atom;
+        Code { text, binding, negated: None, in_place: false, half: syntax.half }
+    }
+
+    /// The negated value, where that takes a sign away.
+    fn turned(&self) -> Option<Code> {
+        let (text, binding) = self.negated.clone()?;
+        Some(Code { text, binding, negated: None, ..*self })
     }
 }
 
@@ -173,7 +182,7 @@ impl Body<'_, '_> {
             Form::Power(base, count) => self.power(base, count, syntax),
             Form::Operation => {
                 let instr = &self.program.instrs[i];
-                self.expression((syntax.spelling)(instr.op()), instr.args(), syntax)
+                self.operation(instr.op(), instr.args(), syntax)
             }
         };
         let same = syntax.half == self.syntaxes.function.half;
@@ -216,8 +225,75 @@ impl Body<'_, '_> {
         code
     }
 
+    fn operation(&mut self, op: Op, args: &[Arg], syntax: &'static Syntax) -> Code {
+        if let (Op::Mad, Some(product)) = (op, self.known_product(args, syntax)) {
+            let added = [self.constant(product, syntax), self.argument(args[2], syntax)];
+            return self.written(Op::Add, added.to_vec(), syntax);
+        }
+        let args = args.iter().map(|&arg| self.argument(arg, syntax)).collect();
+        self.written(op, args, syntax)
+    }
+
+    /// The product of two numbers in a multiply-add that is written as a product and a sum: compilers
+    /// would differ in the precision in which they compute it.
+    fn known_product(&self, args: &[Arg], syntax: &Syntax) -> Option<f32> {
+        if (syntax.spelling)(Op::Mad).binding == Binding::Atom {
+            return None;
+        }
+        let known = |arg: Arg| match arg {
+            Arg::Input(_) => None,
+            Arg::Const(i) => Some(rounded(self.program.consts[usize::from(i)], syntax)),
+            Arg::Result(i) => match self.forms[usize::from(i)] {
+                Form::Constant(value) => Some(rounded(value, syntax)),
+                _ => None,
+            },
+        };
+        Some(rounded(known(args[0])? * known(args[1])?, syntax))
+    }
+
+    /// Signs are moved to where the fewest stand. That is exact: a rounded result is that of the
+    /// negated arguments, negated, and a sum is the difference from the negated term.
+    fn written(&mut self, op: Op, mut args: Vec<Code>, syntax: &'static Syntax) -> Code {
+        let turned: Vec<Option<Code>> = args.iter().map(Code::turned).collect();
+        match (op, turned.as_slice()) {
+            (Op::Neg, [Some(value)]) => {
+                let mut code = value.clone();
+                code.in_place = args[0].in_place;
+                return code;
+            }
+            (Op::Add, [Some(_), None]) => args.swap(0, 1),
+            (Op::Sub, [Some(a), Some(b)]) => args = vec![b.clone(), a.clone()],
+            (Op::Mul | Op::Div, [Some(a), Some(b)]) => args = vec![a.clone(), b.clone()],
+            _ => {}
+        }
+        let mut code = self.expression_of((syntax.spelling)(op), &mut args, syntax);
+        code.negated = match op {
+            Op::Neg => Some((args[0].text.clone(), args[0].binding)),
+            Op::Mul | Op::Div => {
+                let first = args.iter().position(|arg| arg.negated.is_some());
+                first.and_then(|i| {
+                    args[i] = args[i].turned()?;
+                    let spelling = (syntax.spelling)(op);
+                    Some((self.filled(&spelling, &args), spelling.binding))
+                })
+            }
+            _ => None,
+        };
+        code
+    }
+
     fn expression(&mut self, spelling: Spelling, args: &[Arg], syntax: &'static Syntax) -> Code {
         let mut args: Vec<Code> = args.iter().map(|&arg| self.argument(arg, syntax)).collect();
+        self.expression_of(spelling, &mut args, syntax)
+    }
+
+    /// The arguments are as they are written: some may have become locals.
+    fn expression_of(
+        &mut self,
+        spelling: Spelling,
+        args: &mut [Code],
+        syntax: &'static Syntax,
+    ) -> Code {
         for (i, arg) in args.iter_mut().enumerate() {
             let places = pieces(spelling.template).0;
             let written = places.iter().filter(|(_, place)| place.argument == i).count();
@@ -225,14 +301,15 @@ impl Body<'_, '_> {
                 self.name(arg);
             }
         }
-        let mut text = self.filled(&spelling, &args);
+        let mut text = self.filled(&spelling, args);
         while text.len() > syntax.width {
             let in_place = args.iter_mut().filter(|arg| arg.in_place);
             let Some(longest) = in_place.max_by_key(|arg| arg.text.len()) else { break };
             self.name(longest);
-            text = self.filled(&spelling, &args);
+            text = self.filled(&spelling, args);
         }
-        Code { text, binding: spelling.binding, in_place: true, half: syntax.half }
+        let binding = spelling.binding;
+        Code { text, binding, negated: None, in_place: true, half: syntax.half }
     }
 
     /// Makes the expression a local.
@@ -247,7 +324,7 @@ impl Body<'_, '_> {
             return code;
         }
         let text = format!("{}({})", to.types[0], code.text);
-        Code { text, binding: Binding::Atom, in_place: true, half: to.half }
+        Code { text, binding: Binding::Atom, negated: None, in_place: true, half: to.half }
     }
 
     /// The template with the arguments in its places.
@@ -256,8 +333,12 @@ impl Body<'_, '_> {
         let (places, rest) = pieces(spelling.template);
         let mut text = String::new();
         for (before, place) in places {
-            text.push_str(before);
-            let arg = &args[place.argument];
+            let turned = args[place.argument].turned();
+            let (before, arg) = match (turned, self.other_sign(before)) {
+                (Some(turned), Some(before)) => (before, turned),
+                _ => (before.to_owned(), args[place.argument].clone()),
+            };
+            text.push_str(&before);
             if arg.binding >= place.least {
                 text.push_str(&arg.text);
             } else {
@@ -265,6 +346,13 @@ impl Body<'_, '_> {
             }
         }
         text + rest
+    }
+
+    /// The text with a minus for the plus at its end, or the other way round.
+    fn other_sign(&self, before: &str) -> Option<String> {
+        let [plus, minus] = self.syntaxes.function.signs;
+        let exchanged = |from: &str, to: &str| Some(before.strip_suffix(from)?.to_owned() + to);
+        exchanged(plus, minus).or_else(|| exchanged(minus, plus))
     }
 
     fn argument(&mut self, arg: Arg, to: &'static Syntax) -> Code {
@@ -289,8 +377,10 @@ impl Body<'_, '_> {
         if !value.is_finite() {
             return self.non_finite(value, syntax);
         }
-        let binding = if value.is_sign_negative() { Binding::Negation } else { Binding::Atom };
-        Code { text: (syntax.literal)(value), binding, in_place: false, half: syntax.half }
+        let negative = value.is_sign_negative();
+        let binding = if negative { Binding::Negation } else { Binding::Atom };
+        let negated = negative.then(|| ((syntax.literal)(-value), Binding::Atom));
+        Code { text: (syntax.literal)(value), binding, negated, in_place: false, half: syntax.half }
     }
 
     fn non_finite(&mut self, value: f32, syntax: &'static Syntax) -> Code {

@@ -2,8 +2,8 @@
 
 use super::c_family;
 use super::syntax::{
-    PARENTHESES, Signature, Spelling, Syntax, WIDTH, atom, decimal, is_word, negation, product,
-    select, sum,
+    PARENTHESES, SIGNS, Signature, Spelling, Syntax, WIDTH, atom, decimal, is_word, negation,
+    product, select, sum,
 };
 use crate::op::Op;
 
@@ -16,6 +16,7 @@ pub(super) const SYNTAX: Syntax = Syntax {
     spelling,
     power: None,
     parentheses: PARENTHESES,
+    signs: SIGNS,
     width: WIDTH,
     reserved,
     written: str::to_owned,
@@ -97,7 +98,7 @@ fn reserved(name: &str) -> bool {
         || is_word(FUNCTIONS, double)
 }
 
-/// Those of C and of C++.
+/// Those of C23 (§6.4.1) and of C++20 ([lex.key]), and what compilers predefine.
 const KEYWORDS: &str = "alignas alignof and and_eq asm atomic_cancel atomic_commit \
     atomic_noexcept auto bitand bitor bool break case catch char char8_t char16_t char32_t class \
     co_await co_return co_yield compl concept const const_cast consteval constexpr constinit \
@@ -109,6 +110,7 @@ const KEYWORDS: &str = "alignas alignof and and_eq asm atomic_cancel atomic_comm
     typeof_unqual union unsigned using virtual void volatile wchar_t while xor xor_eq main std \
     double_t float_t fortran linux unix";
 
+/// `math.h` of C23 (§7.12) and of glibc 2.36.
 const MACROS: &str = "INFINITY NAN HUGE_VAL HUGE_VALF HUGE_VALL FP_INFINITE FP_NAN FP_NORMAL \
     FP_SUBNORMAL FP_ZERO FP_FAST_FMA FP_FAST_FMAF FP_FAST_FMAL FP_ILOGB0 FP_ILOGBNAN MAXFLOAT \
     MATH_ERRNO MATH_ERREXCEPT math_errhandling M_E M_LOG2E M_LOG10E M_LN2 M_LN10 M_PI M_PI_2 \

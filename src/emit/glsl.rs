@@ -2,8 +2,8 @@
 
 use super::c_family;
 use super::syntax::{
-    PARENTHESES, Signature, Spelling, Syntax, WIDTH, atom, decimal, half_decimal_outward, is_word,
-    negation, product, select, sum,
+    PARENTHESES, SIGNS, Signature, Spelling, Syntax, WIDTH, atom, decimal, half_decimal_outward,
+    is_word, negation, product, select, sum,
 };
 use crate::op::Op;
 
@@ -16,6 +16,7 @@ pub(super) const SYNTAX: Syntax = Syntax {
     spelling,
     power: None,
     parentheses: PARENTHESES,
+    signs: SIGNS,
     width: WIDTH,
     reserved,
     written: str::to_owned,
@@ -122,16 +123,20 @@ fn is_matrix_or_vector(name: &str) -> bool {
 
 /// `sampler2D`, `usampler3D`, `imageCubeArray`, `textureBuffer`, and so on.
 fn is_opaque_type(name: &str) -> bool {
+    // `image2D` begins with a letter that is a prefix elsewhere.
     let unprefixed = name.strip_prefix(['i', 'u']).unwrap_or(name);
-    ["sampler", "image", "texture", "subpassInput"].iter().any(|kind| {
-        let rest = unprefixed.strip_prefix(kind);
-        rest.is_some_and(|rest| {
-            !rest.starts_with(|c: char| c.is_ascii_lowercase()) && !rest.contains('_')
+    [name, unprefixed].iter().any(|name| {
+        ["sampler", "image", "texture", "subpassInput"].iter().any(|kind| {
+            let rest = name.strip_prefix(kind);
+            rest.is_some_and(|rest| {
+                !rest.starts_with(|c: char| c.is_ascii_lowercase()) && !rest.contains('_')
+            })
         })
     })
 }
 
-/// Keywords and reserved words of ES 3.00, ES 3.20 and GLSL 4.60.
+/// Keywords and reserved words of GLSL ES 3.00.6 and 3.20.6, and of GLSL 4.60.8 with `GL_KHR_vulkan_glsl`:
+/// §3.6 of the former (§3.8 of ES 3.00), but for those that are told by their form.
 const KEYWORDS: &str = "active asm atomic_uint attribute bool break buffer case cast centroid \
     class coherent common const continue default discard do double else enum extern external false \
     filter fixed flat float for fvec2 fvec3 fvec4 goto half highp if in inline inout input int \
@@ -140,6 +145,7 @@ const KEYWORDS: &str = "active asm atomic_uint attribute bool break buffer case 
     row_major sample shared short sizeof smooth static struct subroutine superp switch template \
     this true typedef uint uniform union unsigned using varying void volatile while writeonly";
 
+/// §8 of GLSL 4.60.8 and of ES 3.20.6, but for those that begin as a type does (`textureLod`, `imageLoad`).
 const FUNCTIONS: &str = "abs acos acosh all any asin asinh atan atanh barrier bitCount \
     bitfieldExtract bitfieldInsert bitfieldReverse ceil clamp cos cosh cross dFdx dFdxCoarse \
     dFdxFine dFdy dFdyCoarse dFdyFine degrees determinant distance dot equal exp exp2 faceforward \

@@ -2,8 +2,8 @@
 
 use super::c_family;
 use super::syntax::{
-    PARENTHESES, Spelling, Syntax, WIDTH, atom, decimal, half_decimal_outward, is_word, negation,
-    product, select, sum,
+    PARENTHESES, SIGNS, Spelling, Syntax, WIDTH, atom, decimal, half_decimal_outward, is_word,
+    negation, product, select, sum,
 };
 use crate::op::Op;
 
@@ -16,6 +16,7 @@ pub(super) const SYNTAX: Syntax = Syntax {
     spelling,
     power: None,
     parentheses: PARENTHESES,
+    signs: SIGNS,
     width: WIDTH,
     reserved,
     written: str::to_owned,
@@ -84,8 +85,14 @@ fn spelling(op: Op) -> Spelling {
 
 /// Some keywords may be written in any case (`Texture2D`, `TECHNIQUE`), so none is told by it.
 fn reserved(name: &str) -> bool {
+    // `_Atomic` and `__attribute` are DXC's, as they are clang's.
+    let of_the_compiler = name.starts_with("__")
+        || name.strip_prefix('_').is_some_and(|rest| rest.starts_with(|c: char| c.is_uppercase()));
     let name = name.to_ascii_lowercase();
-    is_word(KEYWORDS, &name) || is_word(FUNCTIONS, &name) || is_numeric_type(&name)
+    of_the_compiler
+        || is_word(KEYWORDS, &name)
+        || is_word(FUNCTIONS, &name)
+        || is_numeric_type(&name)
 }
 
 /// `float`, `float3`, `float3x2`, and so on.
@@ -99,11 +106,13 @@ const SCALARS: &str = "bool int uint dword float half double min16float min10flo
     min12int min16uint float16_t float32_t float64_t int16_t int32_t int64_t uint16_t uint32_t \
     uint64_t";
 
+/// In lower case. Keywords and reserved words of FXC (Microsoft's reference, "Keywords" and "Reserved
+/// Words" in the appendix, as of 2021), of DXC 1.8 (`TokenKinds.def` and `HlslTypes.cpp`: C++ and HLSL).
 const KEYWORDS: &str = "appendstructuredbuffer asm asm_fragment auto blendstate break buffer \
     byteaddressbuffer case catch cbuffer centroid char class column_major compile \
     compile_fragment compileshader computeshader const const_cast constantbuffer \
     consumestructuredbuffer continue default delete depthstencilstate depthstencilview discard do \
-    domainshader dynamic_cast else enum explicit export extern false for friend fxgroup \
+    domainshader decl dynamic_cast else enum explicit export extern false for friend fxgroup \
     geometryshader globallycoherent goto groupshared hullshader if in indices inline inout \
     inputpatch interface line lineadj linear linestream long main matrix mutable namespace new \
     nointerpolation noperspective null operator out outputpatch packoffset pass payload \
@@ -115,9 +124,10 @@ const KEYWORDS: &str = "appendstructuredbuffer asm asm_fragment auto blendstate 
     snorm stateblock stateblock_state static static_cast string struct structuredbuffer switch \
     tbuffer technique technique10 technique11 template texture texture1d texture1darray texture2d \
     texture2darray texture2dms texture2dmsarray texture3d texturecube texturecubearray this throw \
-    triangle triangleadj trianglestream true try typedef typename uniform union unorm unroll \
-    unsigned using vector vertexfragment vertexshader vertices virtual void volatile while";
+    triangle triangleadj trianglestream true try typedef typeid typename uniform union unorm unroll \
+    unsigned using vector vertexfragment vertexshader vertices virtual void volatile wchar_t while";
 
+/// In lower case. The intrinsics of shader model 5.1 in the same reference.
 const FUNCTIONS: &str = "abort abs acos all and any asdouble asfloat asin asint asuint atan atan2 \
     ceil clamp clip cos cosh countbits cross d3dcolortoubyte4 ddx ddx_coarse ddx_fine ddy \
     ddy_coarse ddy_fine degrees determinant distance dot dst errorf exp exp2 f16tof32 f32tof16 \
@@ -126,4 +136,13 @@ const FUNCTIONS: &str = "abort abs acos all and any asdouble asfloat asin asint 
     pow printf radians rcp reflect refract reversebits round rsqrt saturate select sign sin sincos \
     sinh smoothstep sqrt step tan tanh tex1d tex1dbias tex1dgrad tex1dlod tex1dproj tex2d \
     tex2dbias tex2dgrad tex2dlod tex2dproj tex3d tex3dbias tex3dgrad tex3dlod tex3dproj texcube \
-    texcubebias texcubegrad texcubelod texcubeproj transpose trunc";
+    texcubebias texcubegrad texcubelod texcubeproj transpose trunc allmemorybarrier \
+    allmemorybarrierwithgroupsync checkaccessfullymapped devicememorybarrier \
+    devicememorybarrierwithgroupsync evaluateattributeatsample evaluateattributecentroid \
+    evaluateattributesnapped getrendertargetsamplecount getrendertargetsampleposition \
+    groupmemorybarrier groupmemorybarrierwithgroupsync interlockedadd interlockedand \
+    interlockedcompareexchange interlockedcomparestore interlockedexchange interlockedmax \
+    interlockedmin interlockedor interlockedxor process2dquadtessfactorsavg \
+    process2dquadtessfactorsmax process2dquadtessfactorsmin processisolinetessfactors \
+    processquadtessfactorsavg processquadtessfactorsmax processquadtessfactorsmin \
+    processtritessfactorsavg processtritessfactorsmax processtritessfactorsmin";

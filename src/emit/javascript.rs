@@ -1,7 +1,7 @@
 //! JavaScript for a page: f32 arithmetic, each result rounded by `Math.fround`. A multiply-add is
 //! rounded to f64 before, so it can differ from a fused one in the last place.
 
-use super::syntax::{PARENTHESES, Signature, Spelling, Syntax, atom, is_word, negation};
+use super::syntax::{PARENTHESES, SIGNS, Signature, Spelling, Syntax, atom, is_word, negation};
 use crate::op::Op;
 
 pub(super) const SYNTAX: Syntax = Syntax {
@@ -13,6 +13,7 @@ pub(super) const SYNTAX: Syntax = Syntax {
     spelling,
     power: None,
     parentheses: PARENTHESES,
+    signs: SIGNS,
     width: 200,
     reserved: |name| is_word(WORDS, name),
     written: str::to_owned,

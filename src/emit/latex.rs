@@ -1,7 +1,7 @@
 //! LaTeX: an `align*` of amsmath, an equation a statement.
 
 use super::syntax::{
-    Signature, Spelling, Syntax, atom, is_word, negation, power, product, select, sum,
+    SIGNS, Signature, Spelling, Syntax, atom, is_word, negation, power, product, select, sum,
 };
 use crate::op::Op;
 use crate::program::format_constant;
@@ -15,6 +15,7 @@ pub(super) const SYNTAX: Syntax = Syntax {
     spelling,
     power: Some("{a!}^{{n}}"),
     parentheses: [r"\left(", r"\right)"],
+    signs: SIGNS,
     width: 200,
     reserved: |_| false,
     written,
@@ -74,9 +75,8 @@ fn close(_: &Syntax, _: &Signature, lines: &mut Vec<String>) {
     lines.push(r"\end{align*}".to_owned());
 }
 
-/// A space between two numbers would join them, and a sum of a negation is a difference.
+/// A space between two numbers would join them.
 fn typeset(value: &str) -> String {
-    let value = value.replace(" + -", " - ");
     let mut factors = value.split(r"\,");
     let mut text = factors.next().unwrap_or("").to_owned();
     for factor in factors {
@@ -167,6 +167,6 @@ mod tests {
 
     #[test]
     fn numbers_side_by_side_have_a_dot_between() {
-        assert_eq!(typeset(r"a\,2\,b\,\frac{1}{c} + -d"), r"a \cdot 2\,b\,\frac{1}{c} - d");
+        assert_eq!(typeset(r"a\,2\,b\,\frac{1}{c}"), r"a \cdot 2\,b\,\frac{1}{c}");
     }
 }

@@ -4,8 +4,13 @@
 //! Emitted code follows the program exactly: nothing is re-associated, a division stays a
 //! division, and a result that is read more than once is computed once, as a named local.
 //! Only what depends on no input is computed here, by the reference semantics: an infinite
-//! constant expression is a compile error in WGSL. Where an argument is NaN, languages differ in
-//! what `min`, `max` and a clamp make of it, and where it is negative in what `pow` does.
+//! constant expression is a compile error in WGSL. Signs are moved to where the fewest stand
+//! (`x - 0.5` for `x + -0.5`), which is exact.
+//!
+//! Where an argument is NaN, languages differ in what `min`, `max` and a clamp make of it, and where it
+//! is negative in what `pow` does. `pow(0, 0)` is NaN in a program, as it is in most shaders, where `pow(x, y)`
+//! is `exp2(y*log2(x))`: GLSL leaves it undefined (as it does `pow(x, y)` for x < 0), HLSL and WGSL
+//! promise no more than that expression gives; in MSL, C, Rust and Python it is 1, as IEEE 754 has it.
 //!
 //! ```
 //! use lgp::emit::{Language, Snippet, emit};
@@ -40,7 +45,9 @@ mod rust;
 mod syntax;
 mod wgsl;
 
-pub use read::{ReadError, read_back};
+pub use read::{
+    MAX_SNIPPET, Precision, ReadBack, ReadError, Stated, StatedError, formula_line, read_back,
+};
 
 use crate::program::{Names, Program};
 use crate::suggest::did_you_mean;
@@ -135,6 +142,17 @@ impl Language {
             Language::Latex => &latex::SYNTAX,
         }
     }
+
+    /// The syntax of its halves, if it has any.
+    fn half_syntax(self) -> Option<&'static Syntax> {
+        match self {
+            Language::Hlsl => Some(&hlsl::HALF),
+            Language::Wgsl => Some(&wgsl::HALF),
+            Language::Glsl => Some(&glsl::HALF),
+            Language::Msl => Some(&msl::HALF),
+            Language::C | Language::Rust | Language::Python | Language::Latex => None,
+        }
+    }
 }
 
 impl fmt::Display for Language {
@@ -171,13 +189,7 @@ pub fn emit(language: Language, snippet: &Snippet) -> String {
 /// # Panics
 /// As [`emit`] does.
 pub fn emit_half(language: Language, snippet: &Snippet, stay_single: &[usize]) -> Option<String> {
-    let syntax = match language {
-        Language::Hlsl => &hlsl::HALF,
-        Language::Wgsl => &wgsl::HALF,
-        Language::Glsl => &glsl::HALF,
-        Language::Msl => &msl::HALF,
-        Language::C | Language::Rust | Language::Python | Language::Latex => return None,
-    };
+    let syntax = language.half_syntax()?;
     let single = language.syntax();
     Some(written(Syntaxes { function: syntax, single, stay_single }, snippet))
 }

@@ -2,8 +2,8 @@
 
 use super::c_family;
 use super::syntax::{
-    PARENTHESES, Spelling, Syntax, WIDTH, atom, decimal, half_decimal, is_word, negation, product,
-    select, sum,
+    PARENTHESES, SIGNS, Spelling, Syntax, WIDTH, atom, decimal, half_decimal, is_word, negation,
+    product, select, sum,
 };
 use crate::op::Op;
 
@@ -16,6 +16,7 @@ pub(super) const SYNTAX: Syntax = Syntax {
     spelling,
     power: None,
     parentheses: PARENTHESES,
+    signs: SIGNS,
     width: WIDTH,
     reserved,
     written: str::to_owned,
@@ -89,6 +90,7 @@ fn reserved(name: &str) -> bool {
         || is_word(KEYWORDS, name)
         || is_word(FUNCTIONS, name)
         || is_type(name)
+        || is_macro(name)
 }
 
 /// `float`, `half3`, `packed_float3`, `float3x2`, and so on.
@@ -98,10 +100,26 @@ fn is_type(name: &str) -> bool {
     is_word(SCALARS, scalar) || is_word(SCALARS, name)
 }
 
+/// `M_PI_F`, `FLT_MAX`, `INT_MIN`, and so on (specification, §6.5 and its limits).
+fn is_macro(name: &str) -> bool {
+    let parts = ["M_", "FLT_", "DBL_", "HALF_", "FP_", "HUGE_", "MAX"];
+    let limits = ["_MAX", "_MIN", "_BIT"];
+    let capitals = !name.contains(|c: char| c.is_ascii_lowercase());
+    // Of those that end in a number there are few, so that others can be given.
+    let numbered = name.trim_end_matches(|c: char| c.is_ascii_digit()).ends_with('_');
+    if numbered {
+        return is_word("M_PI_2 M_PI_4 M_SQRT1_2", name);
+    }
+    capitals
+        && (parts.iter().any(|part| name.starts_with(part))
+            || limits.iter().any(|limit| name.ends_with(limit)))
+}
+
 const SCALARS: &str = "bool char short int long uchar ushort uint ulong half float double int8_t \
     int16_t int32_t int64_t uint8_t uint16_t uint32_t uint64_t size_t ptrdiff_t vec matrix bfloat";
 
-/// Those of C++14, and of Metal.
+/// Those of C++14 (N4431, §2.11), and of the Metal Shading Language Specification 3.2 (§2.1 types, §4 address
+/// spaces, §5 attributes and functions).
 const KEYWORDS: &str = "alignas alignof and and_eq asm atomic_bool atomic_int atomic_uint auto \
     bitand bitor break case catch char16_t char32_t class compl const const_cast constexpr \
     continue decltype default delete do dynamic_cast else enum explicit export extern false final \
@@ -114,8 +132,10 @@ const KEYWORDS: &str = "alignas alignof and and_eq asm atomic_bool atomic_int at
     thread user vertex visible texture1d \
     texture1d_array texture2d texture2d_array texture2d_ms texture2d_ms_array texture3d texturecube \
     texturecube_array texture_buffer depth2d depth2d_array depth2d_ms depth2d_ms_array depthcube \
-    depthcube_array INFINITY NAN HUGE_VALF MAXFLOAT";
+    depthcube_array INFINITY NAN DefaultConstructible assert atomic atomic_float atomic_ulong \
+    complex imaginary llong object_data quad restrict ullong";
 
+/// §6 of the specification.
 const FUNCTIONS: &str = "abs absdiff acos acosh addsat all any as_type asin asinh atan atan2 atanh \
     ceil clamp clz copysign cos cosh cospi cross ctz determinant dfdx dfdy discard_fragment \
     distance distance_squared divide dot exp exp10 exp2 extract_bits faceforward fabs fast fdim \

@@ -1,5 +1,6 @@
 //! Names that a language allows and that do not collide.
 
+use super::read::name_line;
 use super::syntax::Signature;
 use crate::program::Names;
 use std::collections::HashSet;
@@ -47,13 +48,12 @@ impl<'a> Naming<'a> {
         Signature { function, inputs, outputs, structure, result }
     }
 
-    /// A sentence for each name that could not be kept.
+    /// A line for each name that could not be kept.
     pub fn renamed(&self) -> Vec<String> {
-        let kinds = std::iter::once("function").chain(std::iter::repeat("column"));
-        let names = self.wanted().into_iter().zip(&self.written).zip(kinds);
+        let names = self.wanted().into_iter().zip(&self.written);
         names
-            .filter(|((wanted, written), _)| wanted != written)
-            .map(|((wanted, written), kind)| format!("{written} is the {kind} {wanted}"))
+            .filter(|(wanted, written)| wanted != written)
+            .map(|(wanted, written)| name_line(written, wanted))
             .collect()
     }
 

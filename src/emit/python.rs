@@ -1,7 +1,8 @@
 //! Python, of numpy arrays of whatever shape, or of numbers.
 
 use super::syntax::{
-    PARENTHESES, Signature, Spelling, Syntax, WIDTH, atom, decimal, is_word, negation, product, sum,
+    PARENTHESES, SIGNS, Signature, Spelling, Syntax, WIDTH, atom, decimal, is_word, negation,
+    product, sum,
 };
 use crate::op::Op;
 
@@ -14,6 +15,7 @@ pub(super) const SYNTAX: Syntax = Syntax {
     spelling,
     power: None,
     parentheses: PARENTHESES,
+    signs: SIGNS,
     width: WIDTH,
     reserved,
     written: str::to_owned,
@@ -57,7 +59,7 @@ fn spelling(op: Op) -> Spelling {
         Op::Lerp => sum("{a+} + {c*}*({b+} - {a*})"),
         // Of two plain numbers `where` would make doubles.
         Op::Step => atom("np.float32({b+} >= {a+})"),
-        Op::Select => atom("np.where({a+} < {b+}, {c}, {d})"),
+        Op::Select => atom("np.float32(np.where({a+} < {b+}, {c}, {d}))"),
         Op::Floor => atom("np.floor({a})"),
         Op::Fract => sum("{a+} - np.floor({a})"),
         Op::Sign => atom("np.sign({a})"),
@@ -86,6 +88,7 @@ fn reserved(name: &str) -> bool {
     is_word(WORDS, name)
 }
 
+/// Keywords of Python 3.14 (reference, §2.3.1); the soft ones may name a variable.
 const WORDS: &str = "False None True and as assert async await break class continue def del elif \
     else except finally for from global if import in is lambda nonlocal not or pass raise return \
     try while with yield np";

@@ -1,8 +1,8 @@
 //! Rust, of `f32`.
 
 use super::syntax::{
-    PARENTHESES, Signature, Spelling, Syntax, WIDTH, atom, decimal, is_word, negation, product,
-    select, sum,
+    PARENTHESES, SIGNS, Signature, Spelling, Syntax, WIDTH, atom, decimal, is_word, negation,
+    product, select, sum,
 };
 use crate::op::Op;
 
@@ -15,6 +15,7 @@ pub(super) const SYNTAX: Syntax = Syntax {
     spelling,
     power: None,
     parentheses: PARENTHESES,
+    signs: SIGNS,
     width: WIDTH,
     reserved,
     written: str::to_owned,
@@ -97,7 +98,7 @@ fn reserved(name: &str) -> bool {
     name == "_" || is_word(WORDS, name)
 }
 
-/// Keywords, the words reserved for later, and what a pattern would match instead of naming.
+/// Keywords and the words reserved for later (reference of the 2024 edition, §2.2), and what a pattern would match instead of naming.
 const WORDS: &str = "Self abstract as async await become box break const continue crate do dyn \
     else enum extern false final fn for gen if impl in let loop macro match mod move mut override \
     priv pub ref return self static struct super trait true try type typeof union unsafe unsized \

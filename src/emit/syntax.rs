@@ -17,6 +17,8 @@ pub(super) struct Syntax {
     /// How `{a}·{a}·…` is written where it has a notation of its own, `{n}` being how many.
     pub power: Option<&'static str>,
     pub parentheses: [&'static str; 2],
+    /// What stands between the terms of a sum, and of a difference.
+    pub signs: [&'static str; 2],
     /// No expression is longer in bytes, unless its names are.
     pub width: usize,
     /// Whether a name is a keyword, a type, a builtin function, or of a form that may not be
@@ -42,6 +44,8 @@ pub(super) struct Syntax {
 
 /// What most languages have in common.
 pub(super) const PARENTHESES: [&str; 2] = ["(", ")"];
+
+pub(super) const SIGNS: [&str; 2] = [" + ", " - "];
 
 /// With the declaration around it a line stays within 100 columns.
 pub(super) const WIDTH: usize = 72;

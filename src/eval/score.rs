@@ -41,12 +41,21 @@ impl Score {
     /// # Panics
     /// If the numbers of inputs or outputs differ.
     pub fn of(program: &Program, dataset: &Dataset, evaluator: &mut Evaluator) -> Score {
-        assert_eq!(program.outputs.len(), dataset.outputs.len(), "the dataset's outputs");
         let tape = Tape::new(program);
+        let inputs = dataset.inputs.len();
+        Score::of_values(dataset, |split| evaluator.outputs(&tape, &Samples::new(split, inputs)))
+    }
+
+    /// Scores what something else than the interpreter makes of the samples of a split, by output.
+    ///
+    /// # Panics
+    /// If the number of outputs differs.
+    pub fn of_values(dataset: &Dataset, mut outputs: impl FnMut(&Split) -> Vec<Vec<f32>>) -> Score {
         let inputs = dataset.inputs.len();
         let is_weighted = !dataset.search.weights.is_empty();
         let mut errors = |split: &Split| {
-            let values = evaluator.outputs(&tape, &Samples::new(split, inputs));
+            let values = outputs(split);
+            assert_eq!(values.len(), dataset.outputs.len(), "the dataset's outputs");
             let of = |(output, values): (usize, &Vec<f32>)| {
                 let column = inputs + output;
                 let sampled = Sampled {

@@ -12,9 +12,10 @@ mod text;
 pub use effective::{effective, effective_into, use_counts};
 pub use hash::{Constants, structural_hash};
 pub use text::{
-    FreeConstant, Names, ParseError, Parsed, Scope, format_constant, parse, parse_open,
-    parse_template, print, print_expression,
+    FreeConstant, MAX_FORMULA, Names, ParseError, Parsed, Scope, format_constant, parse,
+    parse_open, parse_template, print, print_expression,
 };
+pub(crate) use text::{place, plain, pointed};
 
 use crate::op::{MAX_ARITY, Op};
 use serde::{Deserialize, Serialize};

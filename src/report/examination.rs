@@ -41,7 +41,8 @@ impl Page<'_> {
             None => finding.text(self.names),
         };
         let width = findings.iter().map(|finding| claim(finding).chars().count()).max();
-        let width = width.unwrap_or(0);
+        // A width in a format has 16 bits.
+        let width = width.unwrap_or(0).min(60);
         let mut text = format!("{:<width$}  {:<8}  GPUs\n", "claim", "f32");
         for finding in findings {
             let record = ClaimRecord::new(finding, self.names);

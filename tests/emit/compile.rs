@@ -68,12 +68,12 @@ fn the_msl_computes_what_naga_makes_of_the_wgsl() {
         let (theirs, _) =
             naga::back::msl::write_string(&module, &info, &options, &pipeline).unwrap();
         let theirs = as_we_write(&theirs);
-        let (expected, _) =
-            read_back(Language::Msl, &theirs).unwrap_or_else(|e| panic!("{theirs}{e}"));
-        let (found, _) = read_back(Language::Msl, ours).unwrap();
+        let expected = read_back(Language::Msl, &theirs).unwrap_or_else(|e| panic!("{theirs}{e}"));
+        let found = read_back(Language::Msl, ours).unwrap();
         for sample in SAMPLES {
             // Nasty columns are more than a sample has.
-            let inputs: Vec<f32> = sample.iter().cycle().copied().take(found.inputs).collect();
+            let inputs: Vec<f32> =
+                sample.iter().cycle().copied().take(found.program.inputs).collect();
             let (found, expected) = (found.evaluate(&inputs), expected.evaluate(&inputs));
             assert_eq!(bits(&found), bits(&expected), "{ours}\n{theirs}");
         }
@@ -82,20 +82,47 @@ fn the_msl_computes_what_naga_makes_of_the_wgsl() {
     assert!(compared > 300, "{compared}");
 }
 
-/// naga's MSL without its preamble and namespace, its structures made by a constructor, and what
-/// it knows of comparisons of constants as such comparisons.
+/// naga's MSL without its preamble and namespace, its names such as any may be, its structures named
+/// before they are returned, and what it knows of comparisons of constants as such comparisons.
 fn as_we_write(msl: &str) -> String {
     let lines = msl.lines().filter(|line| !line.starts_with(['#', '/']) && !line.contains("using"));
-    let code = lines.collect::<Vec<_>>().join("\n").replace("metal::", "");
+    let code = lines.collect::<Vec<_>>().join("\n");
     let code = code.replace("false ?", "1.0 < 0.0 ?").replace("true ?", "0.0 < 1.0 ?");
+    let code = without_namespace(&code);
     match code.split_once("return ").and_then(|(before, value)| {
         let (name, values) = value.split_once(" {")?;
         let (values, after) = values.split_once("};")?;
-        Some(format!("{before}return {name}({values});{after}"))
+        Some(format!("{before}{name} returned = {{{values}}}; return returned;{after}"))
     }) {
         Some(code) => code,
         None => code,
     }
+}
+
+/// What stands in the namespace of Metal without it, and other names such that they are none of Metal's.
+fn without_namespace(code: &str) -> String {
+    let belongs = |c: char| c.is_ascii_alphanumeric() || c == '_' || c == '.';
+    let mut text = String::new();
+    let mut rest = code;
+    while let Some(first) = rest.chars().next() {
+        let length = rest.find(|c| !belongs(c)).unwrap_or(rest.len()).max(first.len_utf8());
+        let (word, after) = rest.split_at(length);
+        rest = after;
+        if word == "metal" {
+            let (name, after) = rest.split_at(2 + rest[2..].find(|c| !belongs(c)).unwrap());
+            text += &name[2..];
+            rest = after;
+        } else if first.is_ascii_alphabetic()
+            && !["float", "return", "struct", "const"].contains(&word)
+            || first == '_'
+        {
+            let first = if first == '_' { "u" } else { "" };
+            text.extend([first, word.trim_start_matches('_'), "q"]);
+        } else {
+            text += word;
+        }
+    }
+    text
 }
 
 const MAIN_OF_GLSL: &str =

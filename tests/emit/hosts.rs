@@ -1,9 +1,11 @@
 //! C, Rust and Python: run, and compared with the interpreter.
 
 use crate::agreement::{Case, OF_FORMULAS, Tolerance, front, operations};
+use crate::programs::programs_of;
 use crate::{text, tools};
 use lgp::emit::Language;
 use lgp::op::Op;
+use lgp::program::{Names, parse};
 use std::path::Path;
 
 #[test]
@@ -32,14 +34,43 @@ fn rust_computes_what_the_interpreter_computes() {
 
 #[test]
 fn python_computes_what_the_interpreter_computes() {
+    let Some(python) = python() else { return };
+    let run = |folder: &Path| tools::run(folder, &[python, "main.py"]);
+    agree(Language::Python, "main.py", python_program, run);
+}
+
+/// Of numbers alone numpy makes doubles; what is given singles gives singles.
+#[test]
+fn python_stays_in_single_precision() {
+    let Some(python) = python() else { return };
+    let names = Names::new(["x", "y", "z", "w"], ["f"]);
+    let chosen = parse("f = select(x < y, 1, 2)*z + step(x, 0.5)", &names).unwrap();
+    let programs = Op::ALL.iter().flat_map(|&op| programs_of(op)).chain([chosen]);
+    let programs = programs.filter(|program| {
+        program.instrs.iter().any(|instr| instr.op().arity() > 1) || program.consts.is_empty()
+    });
+    let mut source = String::new();
+    for (i, program) in programs.enumerate() {
+        source += &text(Language::Python, &program, &names, &format!("f{i}"), &[]);
+        source += &format!(
+            "\nr = f{i}_f(*np.array([[0.3], [0.7], [0.1], [0.9]], np.float32))\n\
+             assert r.dtype == np.float32, (f{i}_f, r)\n\n"
+        );
+    }
+    let folder = tempfile::tempdir().unwrap();
+    std::fs::write(folder.path().join("main.py"), source).unwrap();
+    tools::run(folder.path(), &[python, "main.py"]);
+}
+
+fn python() -> Option<&'static str> {
     // Debian's numpy belongs to Debian's interpreter, which need not be the first.
     let interpreters = ["python3", "/usr/bin/python3"];
     let with_numpy = |python: &&str| tools::runs(&[python, "-c", "import numpy"]);
-    let Some(python) = interpreters.into_iter().find(with_numpy) else {
-        return tools::skipped("no python3 has numpy; Python was not run");
-    };
-    let run = |folder: &Path| tools::run(folder, &[python, "main.py"]);
-    agree(Language::Python, "main.py", python_program, run);
+    let python = interpreters.into_iter().find(with_numpy);
+    if python.is_none() {
+        tools::skipped("no python3 has numpy; Python was not run");
+    }
+    python
 }
 
 /// What the C library and numpy may be off in one operation on ordinary arguments.

@@ -44,7 +44,9 @@ const NASTY_NAMES: &str = "cos lambda half texture sample in out input output fn
     asfloat highp layout where shared patch linear noise1 dFdx static struct type x x_ X inverse \
     float3x3 dmat4x2 isampler2DArray smooth flat centroid mod move NULL None True def np yield unsafe \
     Some Self f32 INFINITY NAN sinf fminf y0 y1 gamma _Bool main_ metal threadgroup half3 \
-    packed_float3 device kernel as_type texture2d abs lambda_ loop match dyn complex and_eq int8_t";
+    packed_float3 image1D image2D uimage3D iimageCube image2DMSArray image1DArray imageBuffer \
+    image2DRect samplerCubeShadow imageLoad atomicAdd subpassInput M_PI_F FLT_MAX M_PI wchar_t _Atomic \
+    InterlockedAdd device kernel as_type texture2d abs lambda_ loop match dyn complex and_eq int8_t";
 
 pub fn nasty_columns() -> (Program, Names) {
     let inputs: Vec<&str> = NASTY_NAMES.split_whitespace().collect();

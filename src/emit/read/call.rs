@@ -1,23 +1,23 @@
 //! Calls of functions, and which operation is written as which.
 
+use super::types::{Float, Type};
 use super::{Read, Reader, Value};
+use crate::emit::Language;
 use crate::emit::syntax::{self, Syntax};
 use crate::op::{MAX_ARITY, Op};
 use crate::program::Arg;
 use crate::suggest::did_you_mean;
 
 impl Reader<'_> {
-    pub(super) fn constant(&mut self, value: f32) -> Read<Arg> {
-        if self.draft.consts.len() >= usize::from(u16::MAX) {
-            return self.error(self.offset(), "more than 65535 constants");
-        }
-        Ok(self.draft.constant(value))
-    }
-
-    pub(super) fn call(&mut self, name: &str, at: usize) -> Read<Value> {
-        let is_vector = ["float2", "float3", "float4", "vec2", "vec3", "vec4"].contains(&name);
-        if is_vector || self.structure.as_deref() == Some(name) {
-            return self.components(')').map(Value::Several);
+    /// A call of `name`, after its parenthesis.
+    pub(super) fn call(&mut self, name: String, at: usize) -> Read<Value> {
+        let by_name = matches!(self.language, Language::Glsl | Language::Wgsl);
+        let structure = self.structure.as_ref().is_some_and(|known| known.name == name);
+        match self.known_type(&name) {
+            Some((of, 1)) => return self.conversion(of),
+            Some(_) => return self.several(name, ')'),
+            None if structure && by_name => return self.several(name, ')'),
+            None => {}
         }
         let mut args = vec![self.expression()?];
         while self.take_symbol(',') {
@@ -25,12 +25,25 @@ impl Reader<'_> {
         }
         self.expect(')', "after the arguments")?;
         match args.as_slice() {
-            [Value::Bits(bits)] if name == self.syntax.float_of_bits => {
-                self.float_of_bits(*bits).map(Value::Float)
+            [Value::Bits(bits)] if self.makes_a_float(&name) => {
+                Ok(Value::Float(Float::single(self.float_of_bits(*bits)?)))
             }
-            // A conversion, of what is a float here.
-            [Value::Float(arg)] if name == "float" || name == "f32" => Ok(Value::Float(*arg)),
-            _ => self.operation(name, &args, at),
+            _ => self.operation(&name, &args, at),
+        }
+    }
+
+    /// `float(x)`, `half(x)`
+    fn conversion(&mut self, to: Type) -> Read<Value> {
+        let value = self.float()?;
+        self.expect(')', "after what is converted")?;
+        Ok(Value::Float(self.cast(value, to)?))
+    }
+
+    fn makes_a_float(&self, name: &str) -> bool {
+        name == match self.language {
+            Language::Wgsl => "bitcast<f32>",
+            Language::Msl => "as_type<float>",
+            _ => self.syntax.float_of_bits,
         }
     }
 
@@ -38,31 +51,29 @@ impl Reader<'_> {
     fn float_of_bits(&mut self, bits: u32) -> Read<Arg> {
         let value = f32::from_bits(bits);
         if value.is_finite() {
-            return self.constant(value);
+            return self.number(value);
         }
-        let zero = self.constant(0.0f32.copysign(value))?;
-        Ok(match value.is_nan() {
-            true => self.draft.push(Op::Div, &[zero, zero]),
-            false => self.draft.push(Op::Rcp, &[zero]),
-        })
+        let zero = self.number(0.0f32.copysign(value))?;
+        match value.is_nan() {
+            true => self.push(Op::Div, &[zero, zero], Type::Single),
+            false => self.push(Op::Rcp, &[zero], Type::Single),
+        }
     }
 
     fn operation(&mut self, name: &str, args: &[Value], at: usize) -> Read<Value> {
         let calls = || Op::ALL.iter().filter_map(|&op| Some((op, call_of(self.syntax, op)?)));
         let named = calls().filter(|(_, call)| call.name == name);
-        // Between 0 and 1 it is a saturation, which is found as such.
-        if let ("clamp", [Value::Float(x), Value::Float(low), Value::Float(high)]) = (name, args)
-            && !self.is_unit(*low, *high)
-        {
-            let raised = self.draft.push(Op::Max, &[*x, *low]);
-            return Ok(Value::Float(self.draft.push(Op::Min, &[raised, *high])));
-        }
         let found = named.clone().find_map(|(op, call)| Some((op, self.matched(&call, args)?)));
+        let of = self.meeting_of_arguments(&floats(args), at)?;
         match found {
-            Some((op, args)) => Ok(Value::Float(self.draft.push(op, &args))),
-            None if named.count() > 0 => {
-                self.error(at, format!("`{name}` is not read with these arguments"))
+            // Between 0 and 1 it is a saturation, which is found as such.
+            None if name == "clamp" => self.clamp(args, of, at),
+            // In HLSL it is an integer.
+            Some((Op::Sign, args)) if self.language == Language::Hlsl => {
+                self.called(Op::Sign, &args, of, Type::Integer)
             }
+            Some((op, args)) => self.called(op, &args, of, of),
+            None if named.count() > 0 => self.other_arguments(name, at),
             None => {
                 let known: Vec<&str> = calls().map(|(_, call)| call.name).collect();
                 let hint = did_you_mean(name, known);
@@ -71,10 +82,25 @@ impl Reader<'_> {
         }
     }
 
-    fn is_unit(&self, low: Arg, high: Arg) -> bool {
-        let is =
-            |arg, value| matches!(arg, Arg::Const(i) if self.draft.consts[usize::from(i)] == value);
-        is(low, 0.0) && is(high, 1.0)
+    fn other_arguments<T>(&self, name: &str, at: usize) -> Read<T> {
+        self.error(at, format!("`{name}` is not read with these arguments"))
+    }
+
+    fn called(&mut self, op: Op, args: &[Arg], of: Type, is: Type) -> Read<Value> {
+        let arg = self.push(op, args, of)?;
+        Ok(Value::Float(Float { arg, of: is, exact: None }))
+    }
+
+    fn clamp(&mut self, args: &[Value], of: Type, at: usize) -> Read<Value> {
+        let [Value::Float(x), Value::Float(low), Value::Float(high)] = args else {
+            return self.other_arguments("clamp", at);
+        };
+        let raised = self.push(Op::Max, &[x.arg, low.arg], of)?;
+        self.called(Op::Min, &[raised, high.arg], of, of)
+    }
+
+    fn is_constant(&self, value: &Float, expected: f32) -> bool {
+        matches!(value.arg, Arg::Const(i) if self.draft.consts[usize::from(i)] == expected)
     }
 
     /// The operation's arguments, in its order.
@@ -82,17 +108,26 @@ impl Reader<'_> {
         let mut args = [None; MAX_ARITY];
         for (place, value) in call.places.iter().zip(values) {
             match (place, value) {
-                (Place::Argument(i), Value::Float(arg)) => args[*i] = Some(*arg),
+                (Place::Argument(i), Value::Float(value)) => args[*i] = Some(value.arg),
                 (Place::Less(i, j), Value::Less(a, b)) => {
                     (args[*i], args[*j]) = (Some(*a), Some(*b));
                 }
-                (Place::Literal(literal), Value::Float(Arg::Const(i)))
-                    if self.draft.consts[usize::from(*i)] == *literal => {}
+                (Place::Literal(literal), Value::Float(value))
+                    if self.is_constant(value, *literal) => {}
                 _ => return None,
             }
         }
         (call.places.len() == values.len()).then(|| args.into_iter().flatten().collect())
     }
+}
+
+/// Those that are computed with, of a condition and the values to choose from the latter.
+fn floats(values: &[Value]) -> Vec<Float> {
+    let floats = values.iter().filter_map(|value| match value {
+        Value::Float(value) => Some(*value),
+        _ => None,
+    });
+    floats.collect()
 }
 
 /// An operation that is written as a function.

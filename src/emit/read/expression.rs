@@ -1,24 +1,25 @@
 //! Arithmetic, comparisons, and choices.
 
-use super::lex::Token;
+use super::lex::{Number, NumberKind, Token};
+use super::types::{Float, Type};
 use super::{Read, Reader, Value};
+use crate::emit::Language;
 use crate::op::Op;
-use crate::program::Arg;
 use crate::suggest::did_you_mean;
 
 /// Expressions nested more deeply are refused.
 const MAX_DEPTH: usize = 200;
 
 impl Reader<'_> {
-    pub(super) fn float(&mut self) -> Read<Arg> {
+    pub(super) fn float(&mut self) -> Read<Float> {
         let at = self.offset();
         let value = self.expression()?;
         self.as_float(value, at)
     }
 
-    pub(super) fn as_float(&self, value: Value, at: usize) -> Read<Arg> {
+    pub(super) fn as_float(&self, value: Value, at: usize) -> Read<Float> {
         match value {
-            Value::Float(arg) => Ok(arg),
+            Value::Float(value) => Ok(value),
             _ => self.error(at, "expected a float"),
         }
     }
@@ -28,8 +29,12 @@ impl Reader<'_> {
         self.deeper(|reader| {
             let at = reader.offset();
             let value = reader.comparison()?;
+            let question = reader.offset();
             if !reader.take_symbol('?') {
                 return Ok(value);
+            }
+            if reader.language == Language::Wgsl {
+                return reader.error(question, "WGSL has no `?`; write `select(y, x, a < b)`");
             }
             let Value::Less(a, b) = value else {
                 return reader.error(at, "expected a comparison before `?`");
@@ -37,7 +42,12 @@ impl Reader<'_> {
             let x = reader.float()?;
             reader.expect(':', "between the values to choose from")?;
             let y = reader.float()?;
-            Ok(Value::Float(reader.draft.push(Op::Select, &[a, b, x, y])))
+            let of = match [x.of, y.of] {
+                [Type::Integer, Type::Integer] => Type::Integer,
+                [x, y] => reader.meeting(x, y, at)?,
+            };
+            let arg = reader.push(Op::Select, &[a, b, x.arg, y.arg], of)?;
+            Ok(Value::Float(Float { arg, of, exact: None }))
         })
     }
 
@@ -65,6 +75,8 @@ impl Reader<'_> {
         let at = self.offset();
         let right = self.sum()?;
         let right = self.as_float(right, at)?;
+        self.meeting(left.of, right.of, at)?;
+        let (left, right) = (left.arg, right.arg);
         Ok(if less { Value::Less(left, right) } else { Value::Less(right, left) })
     }
 
@@ -84,12 +96,14 @@ impl Reader<'_> {
     ) -> Read<Value> {
         let at = self.offset();
         let mut value = operand(self)?;
-        while let Some((_, op)) = operators.into_iter().find(|(s, _)| self.take_symbol(*s)) {
+        while let Some((_, op)) = operators.into_iter().find(|(s, _)| self.is_symbol(0, *s)) {
+            let between = self.offset();
+            self.next += 1;
             let left = self.as_float(value, at)?;
             let at = self.offset();
             let right = operand(self)?;
             let right = self.as_float(right, at)?;
-            value = Value::Float(self.draft.push(op, &[left, right]));
+            value = Value::Float(self.arithmetic(op, [left, right], between)?);
         }
         Ok(value)
     }
@@ -100,12 +114,29 @@ impl Reader<'_> {
         }
         if let Some(&Token::Number(number)) = self.peek() {
             self.next += 1;
-            return self.constant(-number).map(Value::Float);
+            return self.literal(number, -1.0).map(Value::Float);
         }
         let at = self.offset();
         let value = self.deeper(Self::negation)?;
         let value = self.as_float(value, at)?;
-        Ok(Value::Float(self.draft.push(Op::Neg, &[value])))
+        let arg = self.push(Op::Neg, &[value.arg], value.of)?;
+        Ok(Value::Float(Float { arg, exact: value.exact.map(|exact| -exact), ..value }))
+    }
+
+    fn literal(&mut self, number: Number, sign: f32) -> Read<Float> {
+        let of = match number.kind {
+            NumberKind::Integer => Type::Integer,
+            NumberKind::Plain => self.plain_type(),
+            NumberKind::Single => Type::Single,
+            NumberKind::Half => Type::Half,
+        };
+        // There is no integer -0.
+        let zero = of == Type::Integer && number.single == 0.0;
+        let value = if zero { 0.0 } else { sign * number.single };
+        let exact = f64::from(sign) * number.exact;
+        let float = Float { arg: self.number(value)?, of: Type::Single, exact: None };
+        let float = if of == Type::Half { self.cast(float, of)? } else { float };
+        Ok(Float { of, exact: Some(exact), ..float })
     }
 
     fn atom(&mut self) -> Read<Value> {
@@ -115,21 +146,22 @@ impl Reader<'_> {
         };
         self.next += 1;
         match token {
-            Token::Number(number) => self.constant(number).map(Value::Float),
+            Token::Number(number) => self.literal(number, 1.0).map(Value::Float),
             Token::Bits(bits) => Ok(Value::Bits(bits)),
             Token::Symbol('(') => {
                 let value = self.expression()?;
                 self.expect(')', "to close the parenthesis")?;
                 Ok(value)
             }
-            Token::Name(name) if self.take_symbol('(') => self.call(&name, at),
-            Token::Name(name) => match self.values.get(&name) {
-                Some(value) => Ok(value.clone()),
-                None => {
-                    let hint = did_you_mean(&name, self.values.keys().map(String::as_str));
-                    self.error(at, format!("`{name}` is no parameter and no local{hint}"))
+            Token::Name(name) if self.values.contains_key(&name) => Ok(self.values[&name].clone()),
+            Token::Name(name) => {
+                let called = self.with_element(name);
+                if self.take_symbol('(') {
+                    return self.call(called, at);
                 }
-            },
+                let hint = did_you_mean(&called, self.values.keys().map(String::as_str));
+                self.error(at, format!("`{called}` is no parameter and no local{hint}"))
+            }
             Token::Symbol(symbol) => self.error(at, format!("expected a value, found `{symbol}`")),
         }
     }

@@ -1,48 +1,178 @@
-//! Shader text to tokens.
+//! Shader text to tokens, and its comments.
 
 use super::ReadError;
+use crate::emit::Language;
+use crate::program::plain;
 
 #[derive(Clone, Debug, PartialEq)]
 pub(super) enum Token {
     Name(String),
-    Number(f32),
+    Number(Number),
     /// A hexadecimal integer.
     Bits(u32),
     Symbol(char),
 }
 
-/// The tokens, each with the byte offset at which it starts. `<f32>` and `<float>` say nothing
-/// that is not known: they are read as a space.
-pub(super) fn tokens(text: &str) -> Result<Vec<(usize, Token)>, ReadError> {
-    let mut tokens = Vec::new();
+/// A decimal number.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Number {
+    /// As written, as far as an `f64` can tell.
+    pub exact: f64,
+    pub single: f32,
+    pub kind: NumberKind,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) enum NumberKind {
+    Integer,
+    /// Without a suffix.
+    Plain,
+    Single,
+    Half,
+}
+
+/// A line of a comment, without what marks it as one.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct Comment<'a> {
+    pub offset: usize,
+    pub text: &'a str,
+}
+
+pub(super) struct Lexed<'a> {
+    /// Each with the byte offset at which it starts.
+    pub tokens: Vec<(usize, Token)>,
+    pub comments: Vec<Comment<'a>>,
+}
+
+pub(super) fn lex(language: Language, text: &str) -> Result<Lexed<'_>, ReadError> {
+    refuse_other_line_ends(text)?;
+    if language != Language::Wgsl {
+        refuse_continued_lines(text)?;
+    }
+    let mut lexed = Lexed { tokens: Vec::new(), comments: Vec::new() };
     let mut at = 0;
     while let Some(c) = text[at..].chars().next() {
         let rest = &text[at..];
         let (token, length) = match c {
-            c if c.is_whitespace() => (None, c.len_utf8()),
-            _ if rest.starts_with("//") => (None, rest.find('\n').unwrap_or(rest.len())),
-            _ if rest.starts_with("/*") => (None, rest.find("*/").map_or(rest.len(), |i| i + 2)),
-            _ if rest.starts_with("<f32>") => (None, "<f32>".len()),
-            _ if rest.starts_with("<float>") => (None, "<float>".len()),
+            ' ' | '\t' | '\n' | '\r' => (None, 1),
+            _ if rest.starts_with("//") => {
+                let length = rest.find('\n').unwrap_or(rest.len());
+                lexed.comments.push(Comment { offset: at, text: rest[2..length].trim() });
+                (None, length)
+            }
+            _ if rest.starts_with("/*") => {
+                let length = block_length(language, rest)
+                    .ok_or_else(|| ReadError::at(text, at, "a comment without an end"))?;
+                lexed.comments.extend(lines_of_block(at, &rest[..length]));
+                (None, length)
+            }
+            _ if rest.starts_with("--") || rest.starts_with("++") => {
+                let message = format!("`{}` changes a value; put a space between", &rest[..2]);
+                return Err(ReadError::at(text, at, message));
+            }
+            '#' => (None, directive(language, rest).map_err(|m| ReadError::at(text, at, m))?),
             c if c.is_ascii_alphabetic() || c == '_' => {
                 let length = count(rest, |b| b.is_ascii_alphanumeric() || b == b'_');
                 (Some(Token::Name(rest[..length].to_owned())), length)
             }
             '0'..='9' | '.' => {
                 let length = number_length(rest);
-                let token =
-                    number(&rest[..length]).map_err(|message| ReadError::at(text, at, message))?;
+                let token = number(language, &rest[..length])
+                    .map_err(|message| ReadError::at(text, at, message))?;
                 (Some(token), length)
             }
             c if c.is_ascii() => (Some(Token::Symbol(c)), 1),
             other => {
+                let other = plain(other);
                 return Err(ReadError::at(text, at, format!("`{other}` has no meaning here")));
             }
         };
-        tokens.extend(token.map(|token| (at, token)));
+        lexed.tokens.extend(token.map(|token| (at, token)));
         at += length;
     }
-    Ok(tokens)
+    Ok(lexed)
+}
+
+/// Compilers differ in what ends a line, and with it a comment.
+fn refuse_other_line_ends(text: &str) -> Result<(), ReadError> {
+    let mut characters = text.char_indices().peekable();
+    while let Some((at, c)) = characters.next() {
+        let next = characters.peek().map(|(_, c)| *c);
+        let fine = match c {
+            '\n' | '\t' => true,
+            '\r' => next == Some('\n'),
+            c => !c.is_control() && c != '\u{2028}' && c != '\u{2029}',
+        };
+        if !fine {
+            let message = format!(
+                "U+{:04X}, which ends a line for some compilers and not for others; take it out",
+                u32::from(c)
+            );
+            return Err(ReadError::at(text, at, message));
+        }
+    }
+    Ok(())
+}
+
+/// In a comment, too, a backslash at a line's end makes the next line a part of it.
+fn refuse_continued_lines(text: &str) -> Result<(), ReadError> {
+    let mut start = 0;
+    for line in text.split_inclusive('\n') {
+        let shown = line.trim_end();
+        if line.ends_with('\n') && (shown.ends_with('\\') || shown.ends_with("??/")) {
+            let message = "a backslash at the end of a line, which makes the next line a part of this one, \
+                 of a comment, too; take it out";
+            return Err(ReadError::at(text, start + shown.len() - 1, message));
+        }
+        start += line.len();
+    }
+    Ok(())
+}
+
+/// Those of WGSL nest.
+fn block_length(language: Language, text: &str) -> Option<usize> {
+    let (mut depth, mut at) = (0usize, 0);
+    loop {
+        let close = at + text[at..].find("*/")?;
+        let open = text[at..].find("/*").map(|i| at + i).filter(|&open| open < close);
+        match open {
+            Some(open) if depth == 0 || language == Language::Wgsl => {
+                depth += 1;
+                at = open + 2;
+            }
+            _ => {
+                depth -= 1;
+                at = close + 2;
+                if depth == 0 {
+                    return Some(at);
+                }
+            }
+        }
+    }
+}
+
+fn lines_of_block(offset: usize, block: &str) -> impl Iterator<Item = Comment<'_>> {
+    let inner = &block[2..block.len() - 2];
+    let mut start = offset + 2;
+    inner.split_inclusive('\n').map(move |line| {
+        let comment = Comment { offset: start, text: line.trim().trim_start_matches('*').trim() };
+        start += line.len();
+        comment
+    })
+}
+
+/// The length of the one line of the preprocessor that is emitted.
+fn directive(language: Language, text: &str) -> Result<usize, String> {
+    let line = text.lines().next().unwrap_or("");
+    let words: Vec<&str> = line.split_whitespace().collect();
+    let halves = "GL_EXT_shader_explicit_arithmetic_types_float16";
+    let allowed = ["#extension", halves, ":", "require"];
+    if language == Language::Glsl && words == allowed {
+        return Ok(line.len());
+    }
+    Err("a line of the preprocessor, which may change what any other means; \
+         verify what it leaves instead"
+        .to_owned())
 }
 
 fn count(text: &str, belongs: fn(u8) -> bool) -> usize {
@@ -59,16 +189,59 @@ fn number_length(text: &str) -> usize {
     }
 }
 
-fn number(text: &str) -> Result<Token, String> {
+fn number(language: Language, text: &str) -> Result<Token, String> {
     let wrong = || format!("`{text}` is no number");
     if let Some(digits) = text.strip_prefix("0x").or_else(|| text.strip_prefix("0X")) {
         let digits = digits.trim_end_matches(['u', 'U']);
         return u32::from_str_radix(digits, 16).map(Token::Bits).map_err(|_| wrong());
     }
-    let digits = text.strip_suffix(['f', 'F', 'h', 'H']).unwrap_or(text);
-    match digits.parse::<f32>() {
-        Ok(value) if value.is_finite() => Ok(Token::Number(value)),
-        Ok(_) => Err(format!("{digits} is too large for a 32-bit float (at most 3.4e38)")),
-        Err(_) => Err(wrong()),
+    let (digits, kind) = without_suffix(language, text);
+    let kind = match (kind, digits.bytes().all(|b| b.is_ascii_digit())) {
+        (NumberKind::Plain, true) => NumberKind::Integer,
+        (_, true) if language != Language::Wgsl => {
+            return Err(format!("`{text}` is a suffix on an integer; write `{digits}.0`"));
+        }
+        (kind, _) => kind,
+    };
+    if digits.ends_with(|c: char| c.is_ascii_alphabetic()) {
+        let integer = digits.trim_end_matches(|c: char| c.is_ascii_alphabetic());
+        return Err(match integer.parse::<f64>() {
+            Ok(_) => format!("`{text}` is no number of single or half precision in {language}"),
+            Err(_) => wrong(),
+        });
     }
+    let single = digits.parse::<f32>().map_err(|_| wrong())?;
+    if !single.is_finite() {
+        return Err(format!("{digits} is too large for a 32-bit float (at most 3.4e38)"));
+    }
+    let exact: f64 = digits.parse().map_err(|_| wrong())?;
+    if kind == NumberKind::Integer && digits.len() > 1 && digits.starts_with('0') {
+        return Err(format!("`{text}` is octal to some compilers; write a float"));
+    }
+    if kind == NumberKind::Integer && exact > f64::from(i32::MAX) {
+        return Err(format!("`{text}` is too large for an integer; write `{text}.0`"));
+    }
+    Ok(Token::Number(Number { exact, single, kind }))
+}
+
+/// The digits, and what the suffix says.
+fn without_suffix(language: Language, text: &str) -> (&str, NumberKind) {
+    let suffixes: &[(&str, NumberKind)] = match language {
+        Language::Wgsl => &[("f", NumberKind::Single), ("h", NumberKind::Half)],
+        Language::Glsl => &[
+            ("hf", NumberKind::Half),
+            ("HF", NumberKind::Half),
+            ("f", NumberKind::Single),
+            ("F", NumberKind::Single),
+        ],
+        _ => &[
+            ("f", NumberKind::Single),
+            ("F", NumberKind::Single),
+            ("h", NumberKind::Half),
+            ("H", NumberKind::Half),
+        ],
+    };
+    let found =
+        suffixes.iter().find_map(|(suffix, kind)| Some((text.strip_suffix(suffix)?, *kind)));
+    found.unwrap_or((text, NumberKind::Plain))
 }

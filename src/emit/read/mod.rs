@@ -1,21 +1,35 @@
 //! Emitted functions back to programs.
 //!
-//! What is read is one function of floats, straight through: locals, arithmetic, the functions
-//! that operations are written as, and a `return`. That is more than what is emitted, so that
-//! a snippet may be edited by hand and still be verified.
+//! What is read is one function of floats, or of halves, straight through: locals, arithmetic, the
+//! functions that operations are written as, and a `return`. That is more than what is emitted, so that
+//! a snippet may be edited by hand and still be verified. Whatever else a compiler might make something
+//! of is refused, never skipped: a type, a number of another type, a line of the preprocessor.
 
+mod agreement;
 mod call;
+mod contract;
+mod declaration;
 mod expression;
 mod lex;
+mod statement;
+mod types;
+
+pub(super) use contract::name_line;
+pub use contract::{Stated, StatedError, formula_line};
 
 use super::{Language, Syntax};
-use crate::program::{Arg, Draft, Names, Program, effective};
-use lex::{Token, tokens};
+use crate::eval::{Arithmetic, Half};
+use crate::op::{MAX_ARITY, Op};
+use crate::program::{Arg, Draft, Names, Program, effective, place, pointed, use_counts};
+use contract::Contract;
+use half::f16;
+use lex::{Comment, Token, lex};
 use std::collections::HashMap;
+use types::{Float, Type};
 
 /// Text that is no function of the language, or more than can be read.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
-#[error("snippet, line {line}, column {column}: {message}\n  {source_line}\n  {:>column$}", "^")]
+#[error("snippet, line {line}, column {column}: {message}\n{}", pointed(.source_line, *.column))]
 pub struct ReadError {
     /// From 1.
     pub line: usize,
@@ -28,86 +42,182 @@ pub struct ReadError {
 
 impl ReadError {
     fn at(text: &str, offset: usize, message: impl Into<String>) -> ReadError {
-        let before = &text[..offset];
-        let line_start = before.rfind('\n').map_or(0, |i| i + 1);
-        let source_line = text[line_start..].lines().next().unwrap_or("");
-        ReadError {
-            line: before.matches('\n').count() + 1,
-            column: text[line_start..offset].chars().count() + 1,
-            message: message.into(),
-            source_line: source_line.to_owned(),
-        }
+        let (line, column, source_line) = place(text, offset);
+        let (message, source_line) = (message.into(), source_line.to_owned());
+        ReadError { line, column, message, source_line }
     }
 }
 
-/// Reads an emitted function back: its program, and the names of the columns, including those
-/// that were written differently.
+/// In which numbers an instruction computes.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Precision {
+    Single,
+    /// What it reads is rounded to halves before, and its result after.
+    Half,
+    /// As in halves, but its result is what it reads, rounded.
+    Rounding,
+}
+
+/// A function that was read.
+#[derive(Clone, Debug)]
+pub struct ReadBack {
+    pub program: Program,
+    /// The names of the columns, including those that were written differently.
+    pub names: Names,
+    /// Of each instruction.
+    pub precisions: Vec<Precision>,
+    /// Whether it is a function of halves: arguments and outputs are.
+    pub in_half: bool,
+    contract: Contract,
+}
+
+impl ReadBack {
+    /// The formula that the comments say the function is, its outputs called `outputs`; none where they
+    /// say nothing of a formula.
+    ///
+    /// # Errors
+    /// [`StatedError`] where a comment is the formula of an output, or is marked as one, and cannot be
+    /// read; or where there are two.
+    pub fn stated(&self, outputs: &[String]) -> Result<Option<Stated>, StatedError> {
+        let names = Names { inputs: self.names.inputs.clone(), outputs: outputs.to_vec() };
+        self.contract.formula(&names)
+    }
+
+    /// The function's outputs in its own precision: halves where it has them.
+    ///
+    /// # Panics
+    /// If `inputs` has not one value for each parameter.
+    pub fn evaluate(&self, inputs: &[f32]) -> Vec<f32> {
+        let program = &self.program;
+        assert_eq!(inputs.len(), program.inputs, "one value for each input");
+        let rounded = |x: f32| if self.in_half { f16::from_f32(x).to_f32() } else { x };
+        let inputs: Vec<f32> = inputs.iter().map(|&x| rounded(x)).collect();
+        let mut results: Vec<f32> = Vec::with_capacity(program.instrs.len());
+        let value = |arg: Arg, results: &[f32]| match arg {
+            Arg::Input(i) => inputs[usize::from(i)],
+            Arg::Const(i) => program.consts[usize::from(i)],
+            Arg::Result(i) => results[usize::from(i)],
+        };
+        for (instr, &precision) in program.instrs.iter().zip(&self.precisions) {
+            let mut args = [0.0; MAX_ARITY];
+            args.iter_mut().zip(instr.args()).for_each(|(to, &arg)| *to = value(arg, &results));
+            results.push(applied(instr.op(), args, precision));
+        }
+        program.outputs.iter().map(|&arg| rounded(value(arg, &results))).collect()
+    }
+}
+
+fn applied(op: Op, args: [f32; MAX_ARITY], precision: Precision) -> f32 {
+    match precision {
+        Precision::Single => op.apply(args),
+        _ => Half::default().apply(op, args.map(f16::from_f32)).to_f32(),
+    }
+}
+
+/// More text is refused before it is read.
+pub const MAX_SNIPPET: usize = 1 << 20;
+
+/// Reads an emitted function back.
 ///
 /// # Errors
-/// [`ReadError`] says where the text is not understood. No language is but those of
-/// [`Language::SHADING`].
-pub fn read_back(language: Language, text: &str) -> Result<(Program, Names), ReadError> {
-    if !Language::SHADING.contains(&language) {
+/// [`ReadError`] says where the text is not understood, or could mean something else to a compiler. No
+/// language is but those of [`Language::SHADING`].
+pub fn read_back(language: Language, text: &str) -> Result<ReadBack, ReadError> {
+    if text.len() > MAX_SNIPPET {
+        let message = format!("{} bytes are more than a snippet has (at most 1 MiB)", text.len());
+        return Err(ReadError::at(text, 0, message));
+    }
+    let Some(half) = language.half_syntax() else {
         let known: Vec<&str> = Language::SHADING.iter().map(|known| known.name()).collect();
         let message = format!("{language} is not read back (but {} are)", known.join(", "));
         return Err(ReadError::at(text, 0, message));
-    }
+    };
+    let lexed = lex(language, text)?;
     let mut reader = Reader {
+        language,
         syntax: language.syntax(),
+        half,
         text,
-        tokens: tokens(text)?,
+        tokens: lexed.tokens,
         next: 0,
         depth: 0,
         draft: Draft::default(),
+        precisions: Vec::new(),
         values: HashMap::new(),
         function: String::new(),
+        of: Type::Single,
+        returned: 0,
         structure: None,
     };
-    let mut names = reader.function()?;
-    let program =
-        Program::verify(reader.draft).map_err(|e| ReadError::at(text, 0, e.to_string()))?;
-    let columns = renamed_columns(reader.syntax.comment, text);
-    for name in names.inputs.iter_mut().chain(&mut names.outputs) {
-        if let Some(column) = columns.get(name.as_str()) {
-            *name = (*column).to_owned();
-        }
-    }
-    Ok((effective(&program), names))
-}
-
-/// What the comments `// cos_ is the column cos` say.
-fn renamed_columns<'a>(comment: &str, text: &'a str) -> HashMap<&'a str, &'a str> {
-    let comments = text.lines().filter_map(|line| line.trim().strip_prefix(comment));
-    comments.filter_map(|line| line.trim().split_once(" is the column ")).collect()
+    let names = reader.function()?;
+    reader.finished(names, &lexed.comments)
 }
 
 /// What an expression may be.
 #[derive(Clone)]
 enum Value {
-    Float(Arg),
+    Float(Float),
     Bits(u32),
     Less(Arg, Arg),
-    /// A vector or a structure: its components, and the locals that they are, if they are.
-    Several(Vec<(Option<String>, Arg)>),
+    Several(Several),
+}
+
+/// A vector or a structure: its components, and the locals that they are, if they are.
+#[derive(Clone)]
+struct Several {
+    /// The name of its type.
+    of: String,
+    components: Vec<(Option<String>, Float)>,
+}
+
+/// A structure declared above the function.
+struct Structure {
+    name: String,
+    members: usize,
+    of: Type,
 }
 
 struct Reader<'a> {
+    language: Language,
     syntax: &'static Syntax,
+    half: &'static Syntax,
     text: &'a str,
     tokens: Vec<(usize, Token)>,
     next: usize,
     depth: usize,
     draft: Draft,
+    precisions: Vec<Precision>,
     /// Parameters and locals.
     values: HashMap<String, Value>,
     function: String,
-    /// The name of the structure declared above the function.
-    structure: Option<String>,
+    /// The type of the function's parameters and outputs.
+    of: Type,
+    /// How many outputs it returns.
+    returned: usize,
+    structure: Option<Structure>,
 }
 
 type Read<T> = Result<T, ReadError>;
 
 impl Reader<'_> {
+    fn finished(self, mut names: Names, comments: &[Comment]) -> Read<ReadBack> {
+        let text = self.text;
+        let program =
+            Program::verify(self.draft).map_err(|e| ReadError::at(text, 0, e.to_string()))?;
+        let mut counts = Vec::new();
+        use_counts(&program, &mut counts);
+        let kept = self.precisions.iter().zip(&counts).filter(|(_, count)| **count > 0);
+        let precisions = kept.map(|(precision, _)| *precision).collect();
+        let contract = Contract::of(text, comments);
+        for name in names.inputs.iter_mut().chain(&mut names.outputs) {
+            if let Some(column) = contract.column(name) {
+                *name = column.to_owned();
+            }
+        }
+        let in_half = self.of == Type::Half;
+        Ok(ReadBack { program: effective(&program), names, precisions, in_half, contract })
+    }
+
     fn peek(&self) -> Option<&Token> {
         self.tokens.get(self.next).map(|(_, token)| token)
     }
@@ -144,133 +254,25 @@ impl Reader<'_> {
         Some(name)
     }
 
-    /// The name after qualifiers and a type, or before a colon and a type.
-    fn declared_name(&mut self) -> Option<String> {
-        let mut name = self.take_name()?;
-        while !self.is_symbol(0, ':')
-            && let Some(later) = self.take_name()
-        {
-            name = later;
-        }
-        if self.take_symbol(':') {
-            self.take_name()?;
-        }
-        Some(name)
+    fn take_word(&mut self, word: &str) -> bool {
+        let found = matches!(self.peek(), Some(Token::Name(name)) if name == word);
+        self.next += usize::from(found);
+        found
     }
 
-    fn function(&mut self) -> Read<Names> {
-        self.structure()?;
-        let Some(name) = self.declared_name() else {
-            return self.error(self.offset(), "expected a function");
-        };
-        self.function = name;
-        self.expect('(', "and the parameters of a function")?;
-        let inputs = self.parameters()?;
-        while !self.is_symbol(0, '{') && self.peek().is_some() {
-            self.next += 1;
+    /// A result, of halves or of floats.
+    fn push(&mut self, op: Op, args: &[Arg], of: Type) -> Read<Arg> {
+        if self.draft.instrs.len() >= usize::from(u16::MAX) {
+            return self.error(self.offset(), "more than 65535 operations");
         }
-        self.expect('{', "and the body of the function")?;
-        loop {
-            if let Some(outputs) = self.statement()? {
-                self.expect('}', "after `return`, to end the function")?;
-                if self.peek().is_some() {
-                    return self.error(self.offset(), "expected no more than one function");
-                }
-                return Ok(Names { inputs, outputs });
-            }
-        }
+        self.precisions.push(if of == Type::Half { Precision::Half } else { Precision::Single });
+        Ok(self.draft.push(op, args))
     }
 
-    /// The structure that the function may return; its members are told by the `return`.
-    fn structure(&mut self) -> Read<()> {
-        if self.peek() != Some(&Token::Name("struct".to_owned())) {
-            return Ok(());
+    fn number(&mut self, value: f32) -> Read<Arg> {
+        if self.draft.consts.len() >= usize::from(u16::MAX) {
+            return self.error(self.offset(), "more than 65535 numbers");
         }
-        self.next += 1;
-        self.structure = self.take_name();
-        while !self.take_symbol('}') {
-            if self.peek().is_none() {
-                return self.error(self.offset(), "expected `}` after the structure");
-            }
-            self.next += 1;
-        }
-        self.take_symbol(';');
-        Ok(())
-    }
-
-    fn parameters(&mut self) -> Read<Vec<String>> {
-        let mut names = Vec::new();
-        while !self.take_symbol(')') {
-            let at = self.offset();
-            let Some(name) = self.declared_name() else {
-                return self.error(at, "expected a parameter");
-            };
-            self.values.insert(name.clone(), Value::Float(Arg::Input(names.len() as u16)));
-            names.push(name);
-            if names.len() > usize::from(u16::MAX) {
-                return self.error(at, "a function has no more than 65535 parameters");
-            }
-            if !self.is_symbol(0, ')') {
-                self.expect(',', "or `)` after a parameter")?;
-            }
-        }
-        self.draft.inputs = names.len();
-        Ok(names)
-    }
-
-    /// Gives the outputs' names after a `return`.
-    fn statement(&mut self) -> Read<Option<Vec<String>>> {
-        let at = self.offset();
-        if self.peek() == Some(&Token::Name("return".to_owned())) {
-            self.next += 1;
-            return self.returned().map(Some);
-        }
-        let Some(name) = self.declared_name() else {
-            return self.error(at, "expected a local, or `return`");
-        };
-        self.expect('=', "after the name of a local")?;
-        let value = if self.take_symbol('{') {
-            Value::Several(self.components('}')?)
-        } else {
-            self.expression()?
-        };
-        self.expect(';', "after a statement")?;
-        self.values.insert(name, value);
-        Ok(None)
-    }
-
-    fn returned(&mut self) -> Read<Vec<String>> {
-        let at = self.offset();
-        let local = self.component_name();
-        let components = match self.expression()? {
-            Value::Float(arg) => vec![(local.or(Some(self.function.clone())), arg)],
-            Value::Several(components) => components,
-            _ => return self.error(at, "expected a float or a vector to return"),
-        };
-        self.expect(';', "after `return`")?;
-        self.draft.outputs = components.iter().map(|(_, arg)| *arg).collect();
-        let names = components.into_iter().enumerate();
-        Ok(names.map(|(i, (name, _))| name.unwrap_or_else(|| format!("output{i}"))).collect())
-    }
-
-    /// The name that is the whole of the expression ahead.
-    fn component_name(&self) -> Option<String> {
-        let ends = [',', ')', '}', ';'].iter().any(|&symbol| self.is_symbol(1, symbol));
-        match self.peek() {
-            Some(Token::Name(name)) if ends => Some(name.clone()),
-            _ => None,
-        }
-    }
-
-    pub(super) fn components(&mut self, close: char) -> Read<Vec<(Option<String>, Arg)>> {
-        let mut components = Vec::new();
-        loop {
-            let name = self.component_name();
-            components.push((name, self.float()?));
-            if self.take_symbol(close) {
-                return Ok(components);
-            }
-            self.expect(',', &format!("or `{close}` after a component"))?;
-        }
+        Ok(self.draft.constant(value))
     }
 }

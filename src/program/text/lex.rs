@@ -1,6 +1,7 @@
 //! Formula text to tokens.
 
 use super::ParseError;
+use super::excerpt::plain;
 
 #[derive(Clone, Debug, PartialEq)]
 pub(super) enum Token {
@@ -59,7 +60,7 @@ pub(super) fn tokens(text: &str) -> Result<Vec<(usize, Token)>, ParseError> {
                 return Err(ParseError::at(
                     text,
                     start,
-                    format!("`{other}` has no meaning in a formula"),
+                    format!("`{}` has no meaning in a formula", plain(other)),
                 ));
             }
         };

@@ -8,11 +8,15 @@
 //! # Ok::<(), lgp::program::ParseError>(())
 //! ```
 
+mod excerpt;
 mod lex;
 mod parse;
 mod print;
 
-pub use parse::{FreeConstant, ParseError, Parsed, Scope, parse, parse_open, parse_template};
+pub(crate) use excerpt::{place, plain, pointed};
+pub use parse::{
+    FreeConstant, MAX_FORMULA, ParseError, Parsed, Scope, parse, parse_open, parse_template,
+};
 pub use print::{format_constant, print, print_expression};
 
 use serde::{Deserialize, Serialize};

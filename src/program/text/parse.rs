@@ -1,15 +1,16 @@
 //! Tokens to a program, by recursive descent.
 
 use super::Names;
+use super::excerpt::{place, pointed};
 use super::lex::{Token, tokens};
 use crate::op::Op;
-use crate::program::{Arg, Draft, Program};
+use crate::program::{Arg, Draft, Instr, Program};
 use crate::suggest::did_you_mean;
-use std::collections::HashMap;
+use std::collections::{HashMap, HashSet};
 
 /// Text that is no formula.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
-#[error("formula, line {line}, column {column}: {message}\n  {source_line}\n  {:>column$}", "^")]
+#[error("formula, line {line}, column {column}: {message}\n{}", pointed(.source_line, *.column))]
 pub struct ParseError {
     /// From 1.
     pub line: usize,
@@ -22,15 +23,9 @@ pub struct ParseError {
 
 impl ParseError {
     pub(super) fn at(text: &str, offset: usize, message: impl Into<String>) -> ParseError {
-        let before = &text[..offset];
-        let line_start = before.rfind('\n').map_or(0, |i| i + 1);
-        let source_line = text[line_start..].lines().next().unwrap_or("");
-        ParseError {
-            line: before.matches('\n').count() + 1,
-            column: text[line_start..offset].chars().count() + 1,
-            message: message.into(),
-            source_line: source_line.to_owned(),
-        }
+        let (line, column, source_line) = place(text, offset);
+        let (message, source_line) = (message.into(), source_line.to_owned());
+        ParseError { line, column, message, source_line }
     }
 }
 
@@ -87,23 +82,44 @@ pub fn parse_open(text: &str, outputs: &[String]) -> Result<Parsed, ParseError> 
 
 /// The program of a text that may hold free constants; they start at 1.
 pub fn parse_template(text: &str, scope: Scope) -> Result<Parsed, ParseError> {
+    if text.len() > MAX_FORMULA {
+        let message = format!("{} bytes are more than a formula has (at most 1 MiB)", text.len());
+        return Err(ParseError::at(text, 0, message));
+    }
+    let names = match scope {
+        Scope::Dataset(names) => names.clone(),
+        Scope::Open { outputs } => Names { inputs: Vec::new(), outputs: outputs.to_vec() },
+    };
     let mut parser = Parser {
         text,
         tokens: tokens(text)?,
         next: 0,
         depth: 0,
         draft: Draft::default(),
-        names: match scope {
-            Scope::Dataset(names) => names.clone(),
-            Scope::Open { outputs } => Names { inputs: Vec::new(), outputs: outputs.to_vec() },
-        },
+        inputs: first_places(&names.inputs),
+        outputs: names.outputs.iter().cloned().collect(),
+        names,
         open: matches!(scope, Scope::Open { .. }),
         assigned: HashMap::new(),
         last_assigned: None,
         free: Vec::new(),
+        free_places: HashMap::new(),
+        constants: HashMap::new(),
+        results: HashMap::new(),
     };
     parser.statements()?;
     parser.finish()
+}
+
+/// More text is refused before it is read.
+pub const MAX_FORMULA: usize = 1 << 20;
+
+fn first_places(names: &[String]) -> HashMap<String, usize> {
+    let mut places = HashMap::new();
+    for (place, name) in names.iter().enumerate() {
+        places.entry(name.clone()).or_insert(place);
+    }
+    places
 }
 
 struct Parser<'a> {
@@ -113,16 +129,30 @@ struct Parser<'a> {
     depth: usize,
     draft: Draft,
     names: Names,
+    /// The inputs' places in `names`, and the outputs.
+    inputs: HashMap<String, usize>,
+    outputs: HashSet<String>,
     open: bool,
     assigned: HashMap<String, Arg>,
     last_assigned: Option<String>,
     free: Vec<FreeConstant>,
+    free_places: HashMap<String, Arg>,
+    /// Numbers by their bits, and results by what computes them.
+    constants: HashMap<u32, Arg>,
+    results: HashMap<Instr, Arg>,
 }
 
 /// Parentheses, calls and signs that may stand inside one another.
 const MAX_DEPTH: usize = 200;
 
 type Parse<T> = Result<T, ParseError>;
+
+/// The first of the names, as many as one reads.
+fn listed(names: &[String]) -> String {
+    const SHOWN: usize = 20;
+    let shown = names[..names.len().min(SHOWN)].join(", ");
+    if names.len() > SHOWN { format!("{shown}, …") } else { shown }
+}
 
 impl Parser<'_> {
     fn peek(&self) -> Option<&Token> {
@@ -184,7 +214,7 @@ impl Parser<'_> {
                     .error(start, format!("expected `name = expression`, as in `{example} = …`"));
             }
         };
-        if self.names.inputs.contains(&name) {
+        if self.inputs.contains_key(&name) {
             return self.error(start, format!("`{name}` is an input, and cannot be assigned"));
         }
         if self.assigned.contains_key(&name) {
@@ -206,7 +236,7 @@ impl Parser<'_> {
             };
             self.next += 1;
             let right = self.product()?;
-            value = self.apply(op, &[value, right]);
+            value = self.apply(op, &[value, right])?;
         }
     }
 
@@ -220,7 +250,7 @@ impl Parser<'_> {
             };
             self.next += 1;
             let right = self.negation()?;
-            value = self.apply(op, &[value, right]);
+            value = self.apply(op, &[value, right])?;
         }
     }
 
@@ -252,11 +282,12 @@ impl Parser<'_> {
             _ => None,
         };
         if let Some(value) = number {
+            let at = self.offset();
             self.next += 1;
-            return Ok(self.constant(value));
+            return self.constant(value, at);
         }
         let value = self.negation()?;
-        Ok(self.apply(Op::Neg, &[value]))
+        self.apply(Op::Neg, &[value])
     }
 
     fn power(&mut self) -> Parse<Arg> {
@@ -290,29 +321,29 @@ impl Parser<'_> {
     fn repeated_product(&mut self, x: Arg, exponent: f32, at: usize) -> Parse<Arg> {
         let square = |p: &mut Self, x| p.apply(Op::Mul, &[x, x]);
         match exponent {
-            2.0 => Ok(square(self, x)),
+            2.0 => square(self, x),
             3.0 => {
-                let x2 = square(self, x);
-                Ok(self.apply(Op::Mul, &[x2, x]))
+                let x2 = square(self, x)?;
+                self.apply(Op::Mul, &[x2, x])
             }
             4.0 => {
-                let x2 = square(self, x);
-                Ok(square(self, x2))
+                let x2 = square(self, x)?;
+                square(self, x2)
             }
             5.0 => {
-                let x2 = square(self, x);
-                let x4 = square(self, x2);
-                Ok(self.apply(Op::Mul, &[x4, x]))
+                let x2 = square(self, x)?;
+                let x4 = square(self, x2)?;
+                self.apply(Op::Mul, &[x4, x])
             }
             6.0 => {
-                let x2 = square(self, x);
-                let x3 = self.apply(Op::Mul, &[x2, x]);
-                Ok(square(self, x3))
+                let x2 = square(self, x)?;
+                let x3 = self.apply(Op::Mul, &[x2, x])?;
+                square(self, x3)
             }
             8.0 => {
-                let x2 = square(self, x);
-                let x4 = square(self, x2);
-                Ok(square(self, x4))
+                let x2 = square(self, x)?;
+                let x4 = square(self, x2)?;
+                square(self, x4)
             }
             other => self.error(
                 at,
@@ -328,8 +359,8 @@ impl Parser<'_> {
         };
         self.next += 1;
         match token {
-            Token::Number(value) => Ok(self.constant(value)),
-            Token::Free(name) => Ok(self.free_constant(name)),
+            Token::Number(value) => self.constant(value, at),
+            Token::Free(name) => self.free_constant(name, at),
             Token::Symbol('(') => {
                 let value = self.sum()?;
                 self.expect(')', "to close the parenthesis")?;
@@ -346,21 +377,23 @@ impl Parser<'_> {
         if let Some(value) = self.assigned.get(&name) {
             return Ok(*value);
         }
-        let known = self.names.inputs.iter().position(|input| *input == name);
-        if let Some(index) = known {
+        if let Some(&index) = self.inputs.get(&name) {
             return Ok(Arg::Input(index as u16));
         }
-        if self.names.outputs.contains(&name) {
+        if self.outputs.contains(&name) {
             return self.error(at, format!("output `{name}` is used before it is assigned"));
         }
         if self.open {
+            let index = self.names.inputs.len();
+            self.room(index, "inputs", at)?;
+            self.inputs.insert(name.clone(), index);
             self.names.inputs.push(name);
-            self.draft.inputs = self.names.inputs.len();
-            return Ok(Arg::Input((self.names.inputs.len() - 1) as u16));
+            self.draft.inputs = index + 1;
+            return Ok(Arg::Input(index as u16));
         }
         let candidates = self.names.inputs.iter().chain(self.assigned.keys());
         let hint = did_you_mean(&name, candidates.map(String::as_str));
-        let inputs = self.names.inputs.join(", ");
+        let inputs = listed(&self.names.inputs);
         self.error(at, format!("unknown name `{name}`{hint} (inputs: {inputs})"))
     }
 
@@ -384,7 +417,7 @@ impl Parser<'_> {
             let plural = if wanted == 1 { "" } else { "s" };
             return self.error(at, format!("`{op}` takes {wanted} argument{plural}, not {given}"));
         }
-        Ok(self.apply(op, &args))
+        self.apply(op, &args)
     }
 
     fn arguments(&mut self) -> Parse<Vec<Arg>> {
@@ -411,35 +444,47 @@ impl Parser<'_> {
         Ok(args)
     }
 
-    fn constant(&mut self, value: f32) -> Arg {
-        let free: Vec<u16> = self.free.iter().map(|f| f.index).collect();
-        let known = (0..self.draft.consts.len()).find(|&i| {
-            self.draft.consts[i].to_bits() == value.to_bits() && !free.contains(&(i as u16))
-        });
-        match known {
-            Some(index) => Arg::Const(index as u16),
-            None => self.draft.constant(value),
+    /// Whether a program can hold one more.
+    fn room(&self, count: usize, what: &str, at: usize) -> Parse<()> {
+        if count < usize::from(u16::MAX) {
+            return Ok(());
         }
+        self.error(at, format!("more than {} {what}; a formula has no more", u16::MAX))
     }
 
-    fn free_constant(&mut self, name: String) -> Arg {
-        if let Some(known) = self.free.iter().find(|free| free.name == name) {
-            return Arg::Const(known.index);
+    fn constant(&mut self, value: f32, at: usize) -> Parse<Arg> {
+        if let Some(&known) = self.constants.get(&value.to_bits()) {
+            return Ok(known);
         }
+        self.room(self.draft.consts.len(), "numbers", at)?;
+        let constant = self.draft.constant(value);
+        self.constants.insert(value.to_bits(), constant);
+        Ok(constant)
+    }
+
+    fn free_constant(&mut self, name: String, at: usize) -> Parse<Arg> {
+        if let Some(&known) = self.free_places.get(&name) {
+            return Ok(known);
+        }
+        self.room(self.draft.consts.len(), "constants", at)?;
         let arg = self.draft.constant(1.0);
         if let Arg::Const(index) = arg {
+            self.free_places.insert(name.clone(), arg);
             self.free.push(FreeConstant { name, index });
         }
-        arg
+        Ok(arg)
     }
 
     /// The operation's result; one that the formula has computed already is shared.
-    fn apply(&mut self, op: Op, args: &[Arg]) -> Arg {
-        let instr = crate::program::Instr::new(op, args);
-        match self.draft.instrs.iter().position(|known| *known == instr) {
-            Some(index) => Arg::Result(index as u16),
-            None => self.draft.push(op, args),
+    fn apply(&mut self, op: Op, args: &[Arg]) -> Parse<Arg> {
+        let instr = Instr::new(op, args);
+        if let Some(&known) = self.results.get(&instr) {
+            return Ok(known);
         }
+        self.room(self.draft.instrs.len(), "operations", self.offset())?;
+        let result = self.draft.push(op, args);
+        self.results.insert(instr, result);
+        Ok(result)
     }
 
     fn finish(mut self) -> Parse<Parsed> {

@@ -57,7 +57,7 @@ pub fn print_expression(program: &Program, names: &Names) -> String {
         let text = printer.expression(i);
         printer.texts.push(text);
     }
-    printer.argument(program.outputs[0]).0
+    printer.argument(program.outputs[0]).text
 }
 
 /// The shortest decimal that reads back as `value`.
@@ -67,11 +67,36 @@ pub fn format_constant(value: f32) -> String {
     if scientific.len() + 2 < plain.len() { scientific } else { plain }
 }
 
+/// How a reader of a value writes it.
+#[derive(Clone)]
+struct Text {
+    text: String,
+    binding: Binding,
+    /// The negated value, where that takes a sign away.
+    negated: Option<(String, Binding)>,
+}
+
+impl Text {
+    fn plain(text: String, binding: Binding) -> Text {
+        Text { text, binding, negated: None }
+    }
+
+    fn turned(&self) -> Option<Text> {
+        let (text, binding) = self.negated.clone()?;
+        Some(Text::plain(text, binding))
+    }
+
+    /// In parentheses unless it binds at least as tightly as `least`.
+    fn operand(&self, least: Binding) -> String {
+        if self.binding >= least { self.text.clone() } else { format!("({})", self.text) }
+    }
+}
+
 struct Printer<'a> {
     program: &'a Program,
     names: &'a Names,
     /// For each instruction, how a reader of its result writes it.
-    texts: Vec<(String, Binding)>,
+    texts: Vec<Text>,
     statements: Vec<String>,
     temporaries: usize,
 }
@@ -79,10 +104,10 @@ struct Printer<'a> {
 impl Printer<'_> {
     fn instruction(&mut self, i: usize, count: u32) {
         if count == 0 {
-            self.texts.push((String::new(), Binding::Atom));
+            self.texts.push(Text::plain(String::new(), Binding::Atom));
             return;
         }
-        let (text, binding) = self.expression(i);
+        let text = self.expression(i);
         let output =
             self.program.outputs.iter().position(|&output| output == Arg::Result(i as u16));
         let name = match output {
@@ -92,10 +117,10 @@ impl Printer<'_> {
         };
         match name {
             Some(name) => {
-                self.statements.push(format!("{name} = {text}"));
-                self.texts.push((name, Binding::Atom));
+                self.statements.push(format!("{name} = {}", text.text));
+                self.texts.push(Text::plain(name, Binding::Atom));
             }
-            None => self.texts.push((text, binding)),
+            None => self.texts.push(text),
         }
     }
 
@@ -116,66 +141,96 @@ impl Printer<'_> {
             if matches!(arg, Arg::Result(_)) && first == Some(o) {
                 continue;
             }
-            let (text, _) = self.argument(arg);
+            let text = self.argument(arg).text;
             self.statements.push(format!("{} = {text}", self.names.outputs[o]));
         }
     }
 
-    fn argument(&self, arg: Arg) -> (String, Binding) {
+    fn argument(&self, arg: Arg) -> Text {
         match arg {
-            Arg::Input(i) => (self.names.inputs[usize::from(i)].clone(), Binding::Atom),
+            Arg::Input(i) => Text::plain(self.names.inputs[usize::from(i)].clone(), Binding::Atom),
             Arg::Const(i) => {
                 let value = self.program.consts[usize::from(i)];
-                let binding =
-                    if value.is_sign_negative() { Binding::Negation } else { Binding::Atom };
-                (format_constant(value), binding)
+                let text = Text::plain(format_constant(value), Binding::Atom);
+                if !value.is_sign_negative() {
+                    return text;
+                }
+                let negated = Some((format_constant(-value), Binding::Atom));
+                Text { binding: Binding::Negation, negated, ..text }
             }
             Arg::Result(i) => self.texts[usize::from(i)].clone(),
         }
     }
 
-    /// The argument, in parentheses unless it binds at least as tightly as `least`.
-    fn operand(&self, arg: Arg, least: Binding) -> String {
-        let (text, binding) = self.argument(arg);
-        if binding >= least { text } else { format!("({text})") }
-    }
-
-    fn expression(&self, i: usize) -> (String, Binding) {
+    /// Signs stand where there are fewest of them. That is exact: a rounded result is that of the
+    /// negated arguments, negated, and a sum is the difference from the negated term.
+    fn expression(&self, i: usize) -> Text {
         let instr = &self.program.instrs[i];
-        let mut args = instr.args().to_vec();
-        // `2*x` reads better than `x*2`, and means the same bits.
-        if instr.op() == Op::Mul && matches!(args[1], Arg::Const(_)) {
-            args.swap(0, 1);
-        }
-        let infix = |symbol: &str, own: Binding, right: Binding| {
-            let left = self.operand(args[0], own);
-            let right = self.operand(args[1], right);
-            (format!("{left}{symbol}{right}"), own)
-        };
-        match instr.op() {
-            Op::Add => infix(" + ", Binding::Sum, Binding::Product),
-            Op::Sub => infix(" - ", Binding::Sum, Binding::Product),
-            Op::Mul if args[0] == args[1] => {
-                (format!("{}^2", self.operand(args[0], Binding::Atom)), Binding::Power)
+        let mut args: Vec<Text> = instr.args().iter().map(|&arg| self.argument(arg)).collect();
+        let turned: Vec<Option<Text>> = args.iter().map(Text::turned).collect();
+        match (instr.op(), instr.args(), turned.as_slice()) {
+            (Op::Add | Op::Sub, _, [_, _]) => sum(instr.op(), args),
+            (Op::Mul, &[a, b], _) if a == b => {
+                Text::plain(format!("{}^2", args[0].operand(Binding::Atom)), Binding::Power)
             }
-            Op::Mul => infix("*", Binding::Product, Binding::Negation),
-            Op::Div => infix("/", Binding::Product, Binding::Negation),
-            Op::Neg => {
+            (Op::Mul | Op::Div, &[_, b], _) => {
+                // `2*x` reads better than `x*2`, and means the same bits.
+                if instr.op() == Op::Mul && matches!(b, Arg::Const(_)) {
+                    args.swap(0, 1);
+                }
+                quotient_or_product(instr.op(), args)
+            }
+            (Op::Neg, _, [Some(value)]) => value.clone(),
+            (Op::Neg, &[arg], _) => {
                 // A bare number after the sign would read as a negative constant.
-                let text = match args[0] {
-                    Arg::Const(_) => format!("({})", self.argument(args[0]).0),
-                    _ => self.operand(args[0], Binding::Power),
+                let value = &args[0];
+                let text = match arg {
+                    Arg::Const(_) => format!("({})", value.text),
+                    _ => value.operand(Binding::Power),
                 };
-                (format!("-{text}"), Binding::Negation)
+                let negated = Some((value.text.clone(), value.binding));
+                Text { text: format!("-{text}"), binding: Binding::Negation, negated }
             }
-            Op::Select => {
-                let [a, b, x, y] = [0, 1, 2, 3].map(|k| self.argument(args[k]).0);
-                (format!("select({a} < {b}, {x}, {y})"), Binding::Atom)
+            (Op::Select, ..) => {
+                let [a, b, x, y] = [0, 1, 2, 3].map(|k| &args[k].text);
+                Text::plain(format!("select({a} < {b}, {x}, {y})"), Binding::Atom)
             }
-            op => {
-                let args: Vec<String> = args.iter().map(|&arg| self.argument(arg).0).collect();
-                (format!("{op}({})", args.join(", ")), Binding::Atom)
+            (op, ..) => {
+                let args: Vec<String> = args.into_iter().map(|arg| arg.text).collect();
+                Text::plain(format!("{op}({})", args.join(", ")), Binding::Atom)
             }
         }
     }
+}
+
+fn sum(op: Op, mut args: Vec<Text>) -> Text {
+    match (op, args[0].turned(), args[1].turned()) {
+        (Op::Add, Some(_), None) => args.swap(0, 1),
+        (Op::Sub, Some(a), Some(b)) => args = vec![b, a],
+        _ => {}
+    }
+    let turned = args[1].turned();
+    let plus = (op == Op::Add) ^ turned.is_some();
+    let left = args[0].operand(Binding::Sum);
+    let right = turned.as_ref().unwrap_or(&args[1]).operand(Binding::Product);
+    let sign = if plus { "+" } else { "-" };
+    Text::plain(format!("{left} {sign} {right}"), Binding::Sum)
+}
+
+fn quotient_or_product(op: Op, mut args: Vec<Text>) -> Text {
+    let symbol = if op == Op::Mul { "*" } else { "/" };
+    let written = |args: &[Text]| {
+        let left = args[0].operand(Binding::Product);
+        format!("{left}{symbol}{}", args[1].operand(Binding::Negation))
+    };
+    if let [Some(a), Some(b)] = [args[0].turned(), args[1].turned()] {
+        return Text::plain(written(&[a, b]), Binding::Product);
+    }
+    let text = written(&args);
+    let first = args.iter().position(|arg| arg.negated.is_some());
+    let negated = first.and_then(|i| {
+        args[i] = args[i].turned()?;
+        Some((written(&args), Binding::Product))
+    });
+    Text { text, binding: Binding::Product, negated }
 }

@@ -1,0 +1,152 @@
+//! What the comments of a snippet say that it is: its formula, and what its columns are called.
+
+use super::lex::Comment;
+use crate::program::{Names, ParseError, Program, parse};
+use std::collections::HashMap;
+
+/// What begins the line with the formula.
+const FORMULA: &str = "formula:";
+
+/// What begins a line with a name that is written differently, and the name.
+const NAME: &str = "names:";
+
+/// The line of a header that says what the function computes.
+pub fn formula_line(formula: &str) -> String {
+    format!("{FORMULA} {formula}")
+}
+
+/// The line of a comment that says how a name is written.
+pub(in crate::emit) fn name_line(written: &str, name: &str) -> String {
+    format!("{NAME} {written} = {name}")
+}
+
+/// A formula in a comment.
+#[derive(Clone, Debug)]
+pub struct Stated {
+    /// Its line in the snippet, from 1.
+    pub line: usize,
+    pub program: Program,
+}
+
+/// A comment that is no formula where one should be.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+pub enum StatedError {
+    #[error("line {line}: the formula in the comment cannot be read: {error}")]
+    Unreadable { line: usize, error: Box<ParseError> },
+    #[error(
+        "line {line}: a comment gives `{output}` a value, but is no formula of all that is returned; \
+         word it otherwise, or mark the comment with the formula by `{FORMULA}`: {error}"
+    )]
+    Unmarked { line: usize, output: String, error: Box<ParseError> },
+    #[error("lines {first} and {second} both are the formula; leave one, marked by `{FORMULA}`")]
+    Twice { first: usize, second: usize },
+}
+
+/// The comments, by what they are for.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Contract {
+    /// Lines, and what follows the mark.
+    formulas: Vec<(usize, String)>,
+    /// Other lines.
+    unmarked: Vec<(usize, String)>,
+    /// Columns by how they are written.
+    columns: HashMap<String, String>,
+}
+
+impl Contract {
+    pub fn of(text: &str, comments: &[Comment]) -> Contract {
+        let mut contract = Contract::default();
+        let (mut line, mut from) = (1, 0);
+        for comment in comments {
+            line += text[from..comment.offset].matches('\n').count();
+            from = comment.offset;
+            contract.take(line, comment.text);
+        }
+        contract
+    }
+
+    fn take(&mut self, line: usize, text: &str) {
+        // As it was written before lines were marked.
+        let renamed = (text.strip_prefix(NAME).and_then(|text| text.split_once(" = ")))
+            .or_else(|| text.split_once(" is the column "));
+        if let Some(formula) = text.strip_prefix(FORMULA) {
+            self.formulas.push((line, formula.trim().to_owned()));
+        } else if let Some((written, column)) = renamed {
+            self.columns.insert(written.trim().to_owned(), column.to_owned());
+        } else {
+            self.unmarked.push((line, text.to_owned()));
+        }
+    }
+
+    pub fn column(&self, written: &str) -> Option<&str> {
+        self.columns.get(written).map(String::as_str)
+    }
+
+    /// The marked formula; without marks, the comment that gives outputs their values.
+    pub fn formula(&self, names: &Names) -> Result<Option<Stated>, StatedError> {
+        let mut found: Option<Stated> = None;
+        for (line, text) in &self.formulas {
+            let unreadable =
+                |error| StatedError::Unreadable { line: *line, error: Box::new(error) };
+            let program = parse(text, names).map_err(unreadable)?;
+            once(&mut found, Stated { line: *line, program })?;
+        }
+        if found.is_some() {
+            return Ok(found);
+        }
+        for (line, text) in &self.unmarked {
+            let Some(output) = names.outputs.iter().find(|output| assigns(text, output)) else {
+                continue;
+            };
+            let unmarked = |error| StatedError::Unmarked {
+                line: *line,
+                output: output.clone(),
+                error: Box::new(error),
+            };
+            let program = parse(text, names).map_err(unmarked)?;
+            once(&mut found, Stated { line: *line, program })?;
+        }
+        Ok(found)
+    }
+}
+
+fn once(found: &mut Option<Stated>, stated: Stated) -> Result<(), StatedError> {
+    match found {
+        Some(first) => Err(StatedError::Twice { first: first.line, second: stated.line }),
+        None => {
+            *found = Some(stated);
+            Ok(())
+        }
+    }
+}
+
+/// Whether `name =` stands in the text.
+fn assigns(text: &str, name: &str) -> bool {
+    let is_part = |c: char| c.is_alphanumeric() || c == '_';
+    !name.is_empty()
+        && text.match_indices(name).any(|(at, _)| {
+            let value = text[at + name.len()..].trim_start().strip_prefix('=');
+            !text[..at].ends_with(is_part) && value.is_some_and(|rest| !rest.starts_with('='))
+        })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn an_assignment_is_of_the_whole_name() {
+        for (text, expected) in [
+            ("y = x", true),
+            ("t = x; y=t", true),
+            ("formul: y = x", true),
+            ("my = x", false),
+            ("y == x", false),
+            ("y2 = x", false),
+            ("y is x", false),
+            ("y my y = 2", true),
+        ] {
+            assert_eq!(assigns(text, "y"), expected, "{text}");
+        }
+    }
+}

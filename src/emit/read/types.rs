@@ -1,0 +1,179 @@
+//! The types of values, and what each language makes of two that meet.
+
+use super::{Precision, Read, Reader};
+use crate::emit::Language;
+use crate::op::Op;
+use crate::program::Arg;
+use half::f16;
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Type {
+    Single,
+    Half,
+    Integer,
+    /// That of a number without a suffix where it takes the type of what it meets.
+    Open,
+}
+
+/// A value that is computed with.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Float {
+    pub arg: Arg,
+    pub of: Type,
+    /// What a compiler that folds in double precision knows it to be, where it is of numbers alone.
+    pub exact: Option<f64>,
+}
+
+impl Float {
+    pub fn single(arg: Arg) -> Float {
+        Float { arg, of: Type::Single, exact: None }
+    }
+}
+
+impl Reader<'_> {
+    /// What a number without a suffix is.
+    pub(super) fn plain_type(&self) -> Type {
+        match self.language {
+            Language::Hlsl | Language::Wgsl => Type::Open,
+            _ => Type::Single,
+        }
+    }
+
+    /// The type in which two values meet in arithmetic.
+    pub(super) fn meeting(&self, a: Type, b: Type, at: usize) -> Read<Type> {
+        use Type::{Half, Integer, Open, Single};
+        let refused = |message: &str| self.error(at, message);
+        match (a, b) {
+            (Integer, Integer) => refused(
+                "arithmetic of integers, which is another than that of floats (19/80 is 0); \
+                 write them as floats, `19.0/80.0`",
+            ),
+            _ if a == b => Ok(a),
+            (Integer, other) | (other, Integer) => match self.language {
+                Language::Glsl => refused(
+                    "an integer meets a float, which GLSL ES does not take; write `2.0` for `2`",
+                ),
+                Language::Hlsl if other == Open => Ok(Single),
+                _ => Ok(other),
+            },
+            (Open, Half) | (Half, Open) if self.language == Language::Hlsl => refused(
+                "a number without a suffix meets a half: compilers differ in what it is; \
+                 write `0.5h` or `0.5f`",
+            ),
+            (Open, other) | (other, Open) => Ok(other),
+            _ if self.language == Language::Wgsl => {
+                refused("an f16 meets an f32, which WGSL does not take; convert one")
+            }
+            _ => Ok(Single),
+        }
+    }
+
+    /// The type of a call's result, whose arguments have these types.
+    pub(super) fn meeting_of_arguments(&self, args: &[Float], at: usize) -> Read<Type> {
+        let integers = args.iter().filter(|arg| arg.of == Type::Integer).count();
+        let several = matches!(self.language, Language::Hlsl | Language::Wgsl);
+        if integers > 0 && (integers == args.len() || !several) {
+            let name = self.language.name();
+            return self.error(
+                at,
+                format!(
+                    "an integer as an argument, which is ambiguous in {name}; write `2.0` for `2`"
+                ),
+            );
+        }
+        let mut types = args.iter().map(|arg| arg.of);
+        let first = types.next().unwrap_or(Type::Single);
+        types.try_fold(first, |met, of| self.meeting(met, of, at))
+    }
+
+    /// The value as a local, a parameter or a component of the type.
+    pub(super) fn converted(&mut self, value: Float, to: Type, at: usize) -> Read<Float> {
+        let narrows = to == Type::Half && value.of == Type::Single;
+        let widens = to == Type::Single && value.of == Type::Half;
+        match self.language {
+            Language::Wgsl if narrows || widens => {
+                self.error(at, "WGSL converts no f16 to f32, nor back, by itself")
+            }
+            Language::Glsl if narrows => {
+                self.error(at, "GLSL makes no half of a float by itself; convert it")
+            }
+            Language::Glsl if value.of == Type::Integer => {
+                self.error(at, "an integer where a float belongs; write `2.0` for `2`")
+            }
+            _ => self.cast(value, to),
+        }
+    }
+
+    /// The value converted as is written.
+    pub(super) fn cast(&mut self, value: Float, to: Type) -> Read<Float> {
+        let arg = match (to, value.of, value.arg) {
+            (Type::Half, Type::Half, _) => value.arg,
+            (Type::Half, _, Arg::Const(i)) => {
+                let rounded = f16::from_f32(self.draft.consts[usize::from(i)]);
+                if rounded.is_infinite() {
+                    let at = self.offset();
+                    return self.error(at, "a number that no half holds (at most 65504)");
+                }
+                self.number(rounded.to_f32())?
+            }
+            (Type::Half, _, arg) => self.rounded(arg)?,
+            _ => value.arg,
+        };
+        Ok(Float { arg, of: to, exact: None })
+    }
+
+    /// The larger of a value and itself, in halves, is the value rounded.
+    fn rounded(&mut self, arg: Arg) -> Read<Arg> {
+        let rounded = self.push(Op::Max, &[arg, arg], Type::Half)?;
+        if let Some(last) = self.precisions.last_mut() {
+            *last = Precision::Rounding;
+        }
+        Ok(rounded)
+    }
+
+    /// A sum, product and so on of two values.
+    pub(super) fn arithmetic(&mut self, op: Op, [a, b]: [Float; 2], at: usize) -> Read<Float> {
+        let of = self.meeting(a.of, b.of, at)?;
+        let exact = match (a.exact, b.exact) {
+            (Some(a), Some(b)) => Some(match op {
+                Op::Add => a + b,
+                Op::Sub => a - b,
+                Op::Mul => a * b,
+                _ => a / b,
+            }),
+            _ => None,
+        };
+        if let Some(exact) = exact {
+            self.folds_alike(op, [a, b], of, exact, at)?;
+        }
+        let arg = self.push(op, &[a.arg, b.arg], of)?;
+        Ok(Float { arg, of, exact })
+    }
+
+    /// Some compilers fold numbers in double precision, others in that of their type.
+    fn folds_alike(&self, op: Op, args: [Float; 2], of: Type, exact: f64, at: usize) -> Read<()> {
+        let [a, b] = args.map(|arg| arg.exact.unwrap_or(f64::NAN));
+        let (typed, folded) = match of {
+            Type::Half => {
+                let [a, b] = [a, b].map(|x| f16::from_f64(x).to_f32());
+                let typed = f16::from_f32(op.apply([a, b, 0.0, 0.0]));
+                (typed.to_f32(), f16::from_f64(exact).to_f32())
+            }
+            _ => (op.apply([a as f32, b as f32, 0.0, 0.0]), exact as f32),
+        };
+        if !typed.is_finite() || !folded.is_finite() {
+            return self
+                .error(at, "numbers that make no finite one, which is an error in some languages");
+        }
+        if typed.to_bits() == folded.to_bits() {
+            return Ok(());
+        }
+        self.error(
+            at,
+            format!(
+                "compilers differ in the precision in which they compute with numbers \
+                 ({typed} or {folded}); write the result"
+            ),
+        )
+    }
+}
