@@ -162,6 +162,16 @@ fn eval_scores_the_outputs_that_a_formula_assigns() {
     assert!((scored["rmse"].as_f64().unwrap() - 0.03425).abs() < 1e-5);
 }
 
+#[test]
+fn eval_shows_and_costs_what_compilers_leave_of_a_formula() {
+    let data = datasets().join("dfg_paper.bin");
+    let formula = "bias = 1*exp2(n_dot_v*(sqrt(4) - 9)) + (roughness - roughness)";
+    let output = lgp(&datasets(), &["eval", formula, data.to_str().unwrap(), "--json"]);
+    let scored: Value = serde_json::from_slice(&output.stdout).unwrap();
+    assert_eq!(scored["formula"], "bias = exp2(-7*n_dot_v)");
+    assert_eq!(scored["cost"], 5.0);
+}
+
 /// What is wrong on the command line, the exit code, and what the message says.
 #[test]
 fn bad_input_is_refused_and_nothing_is_written() {

@@ -114,6 +114,28 @@ fn what_each_compiler_merges() {
     }
 }
 
+/// What compilers compute, or leave out.
+#[test]
+fn constants_and_what_does_nothing_are_free() {
+    for (text, expected) in [
+        ("y = a*(0.5 - 1)", 1.0),
+        ("y = a + sqrt(2)", 1.0),
+        ("y = a*b + sqrt(exp2(3)/7)", 1.0),
+        ("y = a - a", 0.0),
+        ("y = 0*exp2(a) + b", 0.0),
+        ("y = 1*a + 0", 0.0),
+        ("y = pow(a, 1)/1", 0.0),
+        ("t = a - a; y = b/(1 + t)", 0.0),
+        ("y = mad(a, 1, b)", 1.0),
+        ("y = select(1 < 2, a, exp2(b))", 0.0),
+        ("y = exp2(2*a) + exp2(2*a)", 6.0),
+    ] {
+        let profile = Profile::find("gcn").unwrap();
+        assert_eq!(cycles(text, &["y"]), expected, "{text}");
+        assert_eq!(profile.cost(&program(text, &["y"])).cycles, expected, "{text}");
+    }
+}
+
 #[test]
 fn the_built_in_profiles_are_those() {
     let names: Vec<&str> = Profile::built_in().collect();

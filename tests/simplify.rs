@@ -3,7 +3,7 @@
 use lgp::cost::{CostScratch, Profile};
 use lgp::op::Op;
 use lgp::program::{Arg, Draft, Names, Program, parse, print};
-use lgp::simplify::{Simplifier, tidy};
+use lgp::simplify::{Simplifier, folded, tidy};
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 
@@ -150,5 +150,149 @@ fn tidied_formulas_have_fewer_signs() {
         ("t = -2*x; f = (t + y)*t", "t0 = -2*x; f = (t0 + y)*t0"),
     ] {
         assert_eq!(print(&tidy(&parse(text, &names).unwrap()), &names), expected, "{text}");
+    }
+}
+
+/// A program of a few instructions of any kind on two inputs, and on constants that folding knows.
+fn random_program(rng: &mut ChaCha8Rng) -> Program {
+    const TRIVIAL: [f32; 7] = [0.0, -0.0, 1.0, -1.0, 2.0, 0.5, -3.0];
+    let mut draft = Draft { inputs: 2, ..Draft::default() };
+    for _ in 0..4 {
+        let value = match rng.random_range(0..2) {
+            0 => TRIVIAL[rng.random_range(0..TRIVIAL.len())],
+            _ => rng.random_range(-2.0..2.0),
+        };
+        draft.constant(value);
+    }
+    let length = rng.random_range(1..12u16);
+    for i in 0..length {
+        let args: [Arg; 4] = std::array::from_fn(|_| match rng.random_range(0..5) {
+            0 => Arg::Input(rng.random_range(0..2)),
+            1 => Arg::Const(rng.random_range(0..4)),
+            _ if i == 0 => Arg::Input(1),
+            _ => Arg::Result(rng.random_range(0..i)),
+        });
+        let ops = if rng.random_range(0..2) == 0 { &TAME[..] } else { Op::ALL };
+        draft.push(ops[rng.random_range(0..ops.len())], &args);
+    }
+    draft.outputs = vec![Arg::Result(length - 1), Arg::Result(rng.random_range(0..length))];
+    Program::verify(draft).unwrap()
+}
+
+/// What an instruction does that no compiler would leave; of what reads constants alone only what has a finite
+/// value, since no constant is infinite.
+fn idle(program: &Program) -> Option<String> {
+    let constant = |arg: &Arg| match arg {
+        Arg::Const(i) => Some(program.consts[usize::from(*i)]),
+        _ => None,
+    };
+    let negates = |arg: &Arg| match arg {
+        Arg::Result(i) => program.instrs[usize::from(*i)].op() == Op::Neg,
+        _ => false,
+    };
+    program.instrs.iter().enumerate().find_map(|(i, instr)| {
+        let args = instr.args();
+        let is = |place: usize, value: f32| constant(&args[place]) == Some(value);
+        let values: Vec<f32> = args.iter().filter_map(constant).collect();
+        let is_idle = match instr.op() {
+            Op::Add => is(0, 0.0) || is(1, 0.0),
+            Op::Sub => is(0, 0.0) || is(1, 0.0) || args[0] == args[1],
+            Op::Mul => [0.0, 1.0, -1.0].iter().any(|&value| is(0, value) || is(1, value)),
+            Op::Div => is(1, 1.0) || is(1, -1.0) || is(0, 0.0) && !is(1, 0.0),
+            Op::Mad => [0.0, 1.0, -1.0].iter().any(|&v| is(0, v) || is(1, v)) || is(2, 0.0),
+            Op::Neg => negates(&args[0]),
+            Op::Min | Op::Max => args[0] == args[1],
+            Op::Lerp => args[0] == args[1] || is(2, 0.0),
+            Op::Select => args[2] == args[3],
+            _ => false,
+        };
+        let twice = program.instrs[..i].contains(instr);
+        let mut padded = [0.0; 4];
+        padded.iter_mut().zip(&values).for_each(|(to, &value)| *to = value);
+        let constant = values.len() == args.len() && instr.op().apply(padded).is_finite();
+        (is_idle || twice || constant).then(|| format!("{:?} {args:?}", instr.op()))
+    })
+}
+
+#[test]
+fn folding_leaves_nothing_that_compilers_drop_and_keeps_finite_values() {
+    let mut rng = ChaCha8Rng::seed_from_u64(11);
+    let mut compared = 0;
+    for _ in 0..20_000 {
+        let program = random_program(&mut rng);
+        let names = Names::new(["x", "y"], ["f", "g"]);
+        let fold = folded(&program);
+        let texts = || format!("{} -> {}", print(&program, &names), print(&fold, &names));
+        assert_eq!(idle(&fold), None, "{}", texts());
+        assert_eq!(folded(&fold), fold, "{}", texts());
+        // In one the sign of a zero counts, the other is rounded unless its exponent is 1.
+        let differs = program.instrs.iter().any(|i| matches!(i.op(), Op::Atan2 | Op::Pow));
+        let unchanged = print(&program, &names) == print(&fold, &names);
+        assert!(!Simplifier::is_folded(&program) || unchanged, "{}", texts());
+        for x in [[0.3, 0.6], [0.9, -0.15], [2.5, 1e-3]] {
+            for (a, b) in program.evaluate(&x).into_iter().zip(fold.evaluate(&x)) {
+                // Where something on the way is not finite, what is left may be.
+                if !differs && a.is_finite() && b.is_finite() && a != b {
+                    let through = every_value_is_finite(&program, &x);
+                    assert!(!through, "{a} {b} at {x:?}: {}", texts());
+                }
+                compared += 1;
+            }
+        }
+    }
+    assert!(compared > 10_000, "{compared}");
+}
+
+fn every_value_is_finite(program: &Program, x: &[f32]) -> bool {
+    let mut draft = program.clone().into_draft();
+    draft.outputs = (0..draft.instrs.len()).map(|i| Arg::Result(i as u16)).collect();
+    Program::verify(draft).unwrap().evaluate(x).iter().all(|value| value.is_finite())
+}
+
+#[test]
+fn cycles_are_those_of_the_folded_code() {
+    let mut rng = ChaCha8Rng::seed_from_u64(12);
+    let mut scratch = CostScratch::default();
+    let profiles: Vec<Profile> =
+        Profile::built_in().map(|name| Profile::find(name).unwrap()).collect();
+    for _ in 0..5_000 {
+        let program = random_program(&mut rng);
+        let fold = folded(&program);
+        for profile in &profiles {
+            let cycles = profile.cycles(&program, &mut scratch);
+            assert_eq!(cycles, profile.cycles(&fold, &mut scratch));
+            assert_eq!(profile.cost(&program), profile.cost(&fold));
+            assert!((profile.cost(&program).cycles - cycles).abs() < 1e-9);
+        }
+    }
+}
+
+#[test]
+fn a_simplified_program_is_its_own_simplification_and_no_dearer() {
+    let mut rng = ChaCha8Rng::seed_from_u64(13);
+    let mut scratch = CostScratch::default();
+    let gcn = Profile::find("gcn").unwrap();
+    for _ in 0..40_000 {
+        let program = random_program(&mut rng);
+        let names = Names::new(["x", "y"], ["f", "g"]);
+        let simple = simplified(&program);
+        let again = simplified(&simple);
+        let texts = || format!("{} -> {}", print(&program, &names), print(&simple, &names));
+        assert_eq!(again, simple, "{} -> {}", texts(), print(&again, &names));
+        assert_eq!(idle(&simple), None, "{}", texts());
+        // Of several outputs one may be what another has for nothing but its sign; and of products taken
+        // apart from their sums one may be shared.
+        let mut one = program.clone().into_draft();
+        one.outputs.truncate(1);
+        let one = Program::verify(one).unwrap();
+        let names = Names::new(["x", "y"], ["f"]);
+        let [before, after] = [&one, &simplified(&one)].map(|p| gcn.cycles(p, &mut scratch));
+        let after_text = print(&simplified(&one), &names);
+        let fused = one.instrs.iter().any(|instr| instr.op() == Op::Mad);
+        assert!(
+            fused || after <= before,
+            "{before} -> {after}: {} -> {after_text}",
+            print(&one, &names)
+        );
     }
 }

@@ -37,9 +37,13 @@ fn form(draft: &Draft, i: usize, merges: &Merges, scratch: &mut CostScratch) -> 
     let instr = &draft.instrs[i];
     let args = instr.args();
     let absorbed = scratch.is_absorbed(i);
+    // Without a finite value, or it were folded.
+    if args.iter().all(|&arg| is_any_constant(arg)) {
+        return Form::Merged;
+    }
     match instr.op() {
         Op::Neg | Op::Abs if !is_output(draft, i) => Form::Merged,
-        Op::Neg if is_arithmetic_read_once(draft, args[0], &scratch.uses) => Form::Merged,
+        Op::Neg if takes_sign(draft, args[0], &scratch.uses) => Form::Merged,
         Op::Saturate if saturates_free(draft, args[0], merges, &scratch.uses) => Form::Merged,
         Op::Mul if absorbed => Form::Merged,
         Op::Mul if merges.scaled_results && scales_a_sum(draft, args, scratch) => Form::Merged,
@@ -61,6 +65,7 @@ fn form(draft: &Draft, i: usize, merges: &Merges, scratch: &mut CostScratch) -> 
 /// The operation that gives the inverse of a value; none if it is known already. The inverse of a
 /// root that is only divided by is the other root.
 fn inverse(draft: &Draft, of: Arg, scratch: &mut CostScratch) -> Option<Op> {
+    let of = unsigned(draft, of);
     if scratch.inverses.contains(&of) {
         return None;
     }
@@ -71,6 +76,16 @@ fn inverse(draft: &Draft, of: Arg, scratch: &mut CostScratch) -> Option<Op> {
         (Form::Merged, Op::Sqrt) => Some(Op::Rsqrt),
         (Form::Merged, Op::Rsqrt) => Some(Op::Sqrt),
         _ => Some(Op::Rcp),
+    }
+}
+
+/// What an argument is but for its sign.
+fn unsigned(draft: &Draft, arg: Arg) -> Arg {
+    match arg {
+        Arg::Result(i) if draft.instrs[usize::from(i)].op() == Op::Neg => {
+            draft.instrs[usize::from(i)].args()[0]
+        }
+        _ => arg,
     }
 }
 
@@ -175,10 +190,16 @@ fn is_arithmetic(op: Op) -> bool {
     matches!(op, Op::Add | Op::Sub | Op::Mul | Op::Div | Op::Mad)
 }
 
-/// Whether the sign of `arg` can move into the arguments of its instruction.
-fn is_arithmetic_read_once(draft: &Draft, arg: Arg, uses: &[u32]) -> bool {
+fn is_root(draft: &Draft, arg: Arg) -> bool {
+    matches!(arg, Arg::Result(i) if matches!(draft.instrs[usize::from(i)].op(), Op::Sqrt | Op::Rsqrt))
+}
+
+/// Whether the sign of `arg` can move into the arguments of its instruction, which nothing else reads.
+fn takes_sign(draft: &Draft, arg: Arg, uses: &[u32]) -> bool {
     let Arg::Result(i) = arg else { return false };
-    uses[usize::from(i)] == 1 && is_arithmetic(draft.instrs[usize::from(i)].op())
+    let instr = draft.instrs[usize::from(i)];
+    let inverts_no_root = instr.op() == Op::Rcp && !is_root(draft, instr.args()[0]);
+    uses[usize::from(i)] == 1 && (is_arithmetic(instr.op()) || inverts_no_root)
 }
 
 /// Whether `arg` is the result of an instruction that nothing else reads, so that a clamp of it to
@@ -188,7 +209,7 @@ fn saturates_free(draft: &Draft, arg: Arg, merges: &Merges, uses: &[u32]) -> boo
     let instr = &draft.instrs[usize::from(i)];
     uses[usize::from(i)] == 1
         && match (instr.op(), merges.saturates) {
-            (Op::Neg, _) => is_arithmetic_read_once(draft, instr.args()[0], uses),
+            (Op::Neg, _) => takes_sign(draft, instr.args()[0], uses),
             (Op::Abs, _) => false,
             (_, Saturates::Every) => true,
             (op, Saturates::Arithmetic) => is_arithmetic(op) || op == Op::Lerp,

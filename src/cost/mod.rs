@@ -2,8 +2,9 @@
 //!
 //! Shared results are paid once. What compilers merge is not paid at all: a product that only
 //! sums read, signs of arguments, saturation of a result, the square root below a
-//! fraction line, minima of three where the chip has them. Nothing else is assumed of them: a
-//! program is costed as it stands, and [`crate::simplify`] is for what algebra can do.
+//! fraction line, minima of three where the chip has them. Nor are constants and what does nothing, which
+//! folding leaves out ([`crate::simplify`]). Nothing else is assumed of them: the folded program is costed as
+//! it stands, and what algebra can do beyond that is to be done before.
 //!
 //! A chip has pipes that work beside each other; an instruction takes slots on one or more, and
 //! the busiest decides. So cycles are for many threads or long code, which hide latency;
@@ -18,6 +19,7 @@ pub use profile::Profile;
 
 use crate::op::Op;
 use crate::program::{Arg, Draft};
+use crate::simplify::Simplifier;
 use chip::{Chip, Slots, busiest};
 use form::{Form, find_forms};
 use serde::Serialize;
@@ -35,6 +37,8 @@ pub struct CostScratch {
     /// Values whose inverse is known.
     inverses: Vec<Arg>,
     forms: Vec<Form>,
+    simplifier: Simplifier,
+    folded: Draft,
 }
 
 impl CostScratch {
@@ -71,8 +75,19 @@ pub struct OpCost {
 }
 
 impl Profile {
-    /// The cycles of a draft's effective code; for a mix the weighted mean.
+    /// The cycles of a draft's effective code, folded; for a mix the weighted mean.
     pub fn cycles(&self, draft: &Draft, scratch: &mut CostScratch) -> f64 {
+        if Simplifier::is_folded(draft) {
+            return self.cycles_of_folded(draft, scratch);
+        }
+        let mut folded = std::mem::take(&mut scratch.folded);
+        scratch.simplifier.fold_constants(draft, &mut folded);
+        let cycles = self.cycles_of_folded(&folded, scratch);
+        scratch.folded = folded;
+        cycles
+    }
+
+    fn cycles_of_folded(&self, draft: &Draft, scratch: &mut CostScratch) -> f64 {
         let weighted = |(share, chip): &(f64, Chip)| {
             find_forms(draft, &chip.merges, scratch);
             share * busiest(&slots(draft, chip, scratch))
@@ -80,10 +95,12 @@ impl Profile {
         self.chips.iter().map(weighted).sum()
     }
 
-    /// The cost of a draft's effective code; for a mix the weighted means, but the most registers,
+    /// The cost of a draft's effective code, folded; for a mix the weighted means, but the most registers,
     /// and the operations on its first GPU.
     pub fn cost(&self, draft: &Draft) -> Cost {
-        let mut costs = self.chips.iter().map(|(share, chip)| (*share, chip_cost(draft, chip)));
+        let mut folded = Draft::default();
+        Simplifier::default().fold_constants(draft, &mut folded);
+        let mut costs = self.chips.iter().map(|(share, chip)| (*share, chip_cost(&folded, chip)));
         let (share, mut whole) = costs.next().expect("a profile has a chip");
         whole.cycles *= share;
         whole.critical_path *= share;

@@ -7,6 +7,7 @@ use crate::dataset::Dataset;
 use crate::eval::{Evaluator, OutputError, Score};
 use crate::fit::Measure;
 use crate::program::{Draft, Names, Program, parse, print};
+use crate::simplify::folded;
 use crate::stability::{Limits, Questions, Rounding, Stopped, Verdict, VerdictRecord};
 use rayon::prelude::*;
 
@@ -25,7 +26,7 @@ pub struct FrontMember {
 }
 
 impl FrontMember {
-    /// A program over the dataset's columns, costed and scored.
+    /// A program over the dataset's columns, folded, costed and scored.
     ///
     /// # Panics
     /// If the program has other numbers of inputs or outputs than the dataset and `names`.
@@ -35,6 +36,7 @@ impl FrontMember {
         profile: &Profile,
         names: &Names,
     ) -> FrontMember {
+        let program = folded(&program);
         let formula = print(&program, names);
         // What is shown is what is scored and emitted, operand by operand.
         let program = parse(&formula, names).unwrap_or(program);

@@ -8,7 +8,7 @@ use crate::cost::CostScratch;
 use crate::eval::Samples;
 use crate::fit::{Fitter, Measure, Rounds, Stop, minimax};
 use crate::op::Op;
-use crate::program::{Arg, Constants, Draft, effective_into, structural_hash};
+use crate::program::{Arg, Constants, Draft, structural_hash};
 use crate::simplify::Simplifier;
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
@@ -92,7 +92,6 @@ struct Workshop {
     fitter: Fitter,
     cost: CostScratch,
     hashes: Vec<u64>,
-    uses: Vec<u32>,
     child: Draft,
     candidate: Draft,
 }
@@ -274,10 +273,10 @@ impl Island {
 impl Workshop {
     /// Makes the child a candidate, effective code as the grammar writes it, and costs it.
     fn prepare(&mut self, problem: &Problem, max_cost: f64) -> Result<f64, Fate> {
-        let Workshop { simplifier, cost: scratch, uses, child, candidate, .. } = self;
+        let Workshop { simplifier, cost: scratch, child, candidate, .. } = self;
         simplifier.simplify(child, candidate);
         if !is_written_in(candidate, problem) {
-            effective_into(child, candidate, uses);
+            simplifier.fold_constants(child, candidate);
         }
         let constants_are_finite = candidate.consts.iter().all(|c| c.is_finite());
         if candidate.instrs.len() > problem.grammar.max_instructions || !constants_are_finite {

@@ -1,14 +1,26 @@
-//! Algebra on programs: what any shader compiler would do, and what fitting would make equal.
+//! Algebra on programs, at two levels. This module alone decides what is left of a formula.
 //!
-//! A candidate is rebuilt instruction by instruction; each new one is first looked for among those
-//! that exist (so equal subexpressions are shared), and rewritten where a rule applies.
-//! Constants are taken as free: `(x + c₁) + c₂` becomes `x + c₃`. Rounding may change,
-//! so whoever needs the value evaluates the result; nothing is promised bit for bit.
+//! **Folding** ([`folded`]) is what any shader compiler does, since shaders are compiled without strict
+//! IEEE-754: operations on constants alone are computed, what does nothing is dropped (`x + 0`, `1*x`, `x/1`,
+//! `x - x`, `0*x`, `pow(x, 1)`), what is written twice is computed once. Finite values keep their bits, but for the
+//! sign of a zero and the rounding of a power; where `x` is infinite or NaN, `x - x` and `0*x` are 0 all the same. So cycles are those of the folded
+//! code ([`crate::cost`]), and a formula that is scored, shown or emitted is folded first: its errors are those
+//! of the text that is shown. Proofs of a formula that someone wrote ([`crate::stability`]) are of it as written.
+//!
+//! **Simplification** ([`Simplifier::simplify`]) goes further, to what fitting would make equal. A candidate is
+//! rebuilt instruction by instruction; each new one is first looked for among those that exist (so equal
+//! subexpressions are shared), and rewritten where a rule applies, until no rule does. Constants are taken
+//! as free: `(x + c₁) + c₂` becomes `x + c₃`. Rounding may change, so whoever needs the value evaluates the
+//! result; nothing is promised bit for bit. A simplified program has no operation that does nothing, none on
+//! constants alone unless its value is not finite (`1/0`), and is its own simplification.
 
+mod fold;
+mod identities;
 mod rescale;
 mod rules;
 mod tidy;
 
+pub use fold::folded;
 pub use rescale::{InputScale, Placement, rescaled};
 pub use tidy::tidy;
 
@@ -21,21 +33,59 @@ pub struct Simplifier {
     draft: Draft,
     /// The new argument for each instruction of the source.
     moved: Vec<Arg>,
+    /// The new argument for each constant of the source.
+    numbers: Vec<Arg>,
     /// How often each instruction of the source is read.
     uses: Vec<u32>,
     /// Whether each new instruction is read once only, in the end.
     read_once: Vec<bool>,
+    /// Whether each new instruction is an output.
+    is_output: Vec<bool>,
     scratch: Vec<u32>,
+    /// Whether nothing is done but to fold.
+    only_folds: bool,
+    /// Whether anything but introns was left out or made anew.
+    changed: bool,
+    previous: Draft,
 }
+
+/// Passes over a program, at most; hardly any needs more than three.
+const MOST_PASSES: usize = 12;
 
 impl Simplifier {
     /// Writes a simpler form of `source`'s effective code to `target`.
     pub fn simplify(&mut self, source: &Draft, target: &mut Draft) {
+        self.only_folds = false;
+        self.settle(source, target);
+    }
+
+    /// Passes until nothing changes.
+    fn settle(&mut self, source: &Draft, target: &mut Draft) {
+        self.pass(source, target);
+        let mut previous = std::mem::take(&mut self.previous);
+        for _ in 1..MOST_PASSES {
+            if !self.changed {
+                break;
+            }
+            previous.copy_from(target);
+            self.pass(&previous, target);
+        }
+        self.previous = previous;
+    }
+
+    /// One pass over the instructions, in their order.
+    fn pass(&mut self, source: &Draft, target: &mut Draft) {
+        self.changed = false;
         use_counts(source, &mut self.uses);
         self.moved.clear();
         self.read_once.clear();
+        self.is_output.clear();
         self.draft.clear(source.inputs);
-        self.draft.consts.extend_from_slice(&source.consts);
+        self.numbers.clear();
+        for &value in &source.consts {
+            let number = self.number(value);
+            self.numbers.push(number);
+        }
         for (i, instr) in source.instrs.iter().enumerate() {
             if self.uses[i] == 0 {
                 self.moved.push(Arg::Input(0));
@@ -48,6 +98,7 @@ impl Simplifier {
             let arg = self.build(instr.op(), &args[..instr.args().len()]);
             if let Arg::Result(new) = arg {
                 self.read_once[usize::from(new)] &= self.uses[i] == 1;
+                self.is_output[usize::from(new)] |= source.outputs.contains(&Arg::Result(i as u16));
             }
             self.moved.push(arg);
         }
@@ -61,33 +112,41 @@ impl Simplifier {
     fn moved_arg(&self, arg: Arg) -> Arg {
         match arg {
             Arg::Result(i) => self.moved[usize::from(i)],
-            other => other,
+            Arg::Const(i) => self.numbers[usize::from(i)],
+            Arg::Input(_) => arg,
         }
     }
 
     /// The result of `op` on `args`: rewritten by a rule, or shared, or new.
     fn build(&mut self, op: Op, args: &[Arg]) -> Arg {
-        if let Some(folded) = self.fold(op, args) {
-            return folded;
-        }
-        if let Some(rewritten) = self.rewrite(op, args) {
+        if let Some(rewritten) = self.rewritten(op, args) {
+            self.changed = true;
             return rewritten;
         }
         let mut instr = Instr::new(op, args);
-        if op.commutes() && instr.args()[0] > instr.args()[1] {
+        if !self.only_folds && op.commutes() && instr.args()[0] > instr.args()[1] {
             instr.args_mut().swap(0, 1);
         }
-        match self.draft.instrs.iter().position(|known| *known == instr) {
+        match self.known(&instr) {
             Some(known) => {
+                self.changed = true;
                 self.read_once[known] = false;
                 Arg::Result(known as u16)
             }
             None => {
                 self.draft.instrs.push(instr);
                 self.read_once.push(true);
+                self.is_output.push(false);
                 Arg::Result((self.draft.instrs.len() - 1) as u16)
             }
         }
+    }
+
+    fn rewritten(&mut self, op: Op, args: &[Arg]) -> Option<Arg> {
+        if let Some(known) = self.fold(op, args).or_else(|| self.identity(op, args)) {
+            return Some(known);
+        }
+        if self.only_folds { None } else { self.rewrite(op, args) }
     }
 
     /// The value of an operation on constants, where it is finite.
@@ -97,7 +156,7 @@ impl Simplifier {
             *to = self.constant(arg)?;
         }
         let value = op.apply(values);
-        value.is_finite().then(|| self.draft.constant(value))
+        value.is_finite().then(|| self.number(value))
     }
 
     fn constant(&self, arg: Arg) -> Option<f32> {
@@ -119,6 +178,12 @@ impl Simplifier {
         let instr = self.definition(arg).filter(|instr| instr.op() == op)?;
         let args = instr.args();
         Some((args[0], *args.get(1).unwrap_or(&args[0])))
+    }
+
+    /// What `arg` is the negative of; nothing where that sign is paid for, being an output's.
+    fn negated(&self, arg: Arg) -> Option<Arg> {
+        let (inner, _) = self.operands(arg, Op::Neg)?;
+        matches!(arg, Arg::Result(i) if !self.is_output[usize::from(i)]).then_some(inner)
     }
 
     fn is_read_once(&self, arg: Arg) -> bool {

@@ -19,17 +19,12 @@ impl Simplifier {
                 let product = self.build(Op::Mul, &args[..2]);
                 Some(self.build(Op::Add, &[product, args[2]]))
             }
-            Op::Abs => match self.definition(x)?.op() {
-                Op::Abs => Some(x),
-                Op::Neg => {
-                    let (inner, _) = self.operands(x, Op::Neg)?;
-                    Some(self.build(Op::Abs, &[inner]))
-                }
-                _ => None,
-            },
-            Op::Saturate => self.operands(x, Op::Saturate).map(|_| x),
-            Op::Lerp if x == y => Some(x),
-            Op::Select if args[2] == args[3] => Some(args[2]),
+            Op::Abs => {
+                let inner = self.negated(x)?;
+                Some(self.build(Op::Abs, &[inner]))
+            }
+            Op::Lerp if self.constant(args[2]) == Some(1.0) => Some(y),
+            Op::Pow if self.constant(y) == Some(0.0) => Some(self.number(1.0)),
             _ => self.inverse(op, x),
         }
     }
@@ -43,8 +38,10 @@ impl Simplifier {
             (Op::Exp, Op::Log) | (Op::Log, Op::Exp) => Some(y),
             (Op::Rcp, Op::Exp2 | Op::Exp) => self.inverse_power(x),
             (Op::Rcp, Op::Rcp) => Some(y),
-            (Op::Rcp, Op::Sqrt) | (Op::Sqrt, Op::Rcp) => Some(self.build(Op::Rsqrt, &[y])),
-            (Op::Rcp, Op::Rsqrt) => Some(self.build(Op::Sqrt, &[y])),
+            (Op::Rcp, Op::Sqrt) | (Op::Sqrt, Op::Rcp) if self.is_read_once(x) => {
+                Some(self.build(Op::Rsqrt, &[y]))
+            }
+            (Op::Rcp, Op::Rsqrt) if self.is_read_once(x) => Some(self.build(Op::Sqrt, &[y])),
             (Op::Sqrt, Op::Mul) if inner.args()[0] == inner.args()[1] => {
                 Some(self.build(Op::Abs, &[y]))
             }
@@ -63,14 +60,14 @@ impl Simplifier {
         if self.constant(y).is_some() {
             return self.sum_with_constant(x, y);
         }
-        if let Some((inner, _)) = self.operands(y, Op::Neg) {
+        if let Some(inner) = self.negated(y) {
             return Some(self.build(Op::Sub, &[x, inner]));
         }
-        if let Some((inner, _)) = self.operands(x, Op::Neg) {
+        if let Some(inner) = self.negated(x) {
             return Some(self.build(Op::Sub, &[y, inner]));
         }
         if x == y {
-            let two = self.draft.constant(2.0);
+            let two = self.number(2.0);
             return Some(self.build(Op::Mul, &[x, two]));
         }
         // (x + c₁) + (y + c₂) = x + (y + c)
@@ -82,9 +79,6 @@ impl Simplifier {
     }
 
     fn sum_with_constant(&mut self, x: Arg, c: Arg) -> Option<Arg> {
-        if self.constant(c) == Some(0.0) {
-            return Some(x);
-        }
         if let Some((inner, c2)) = self.constant_last(x, Op::Add) {
             let c = self.fold(Op::Add, &[c2, c])?;
             return Some(self.build(Op::Add, &[inner, c]));
@@ -106,17 +100,11 @@ impl Simplifier {
     }
 
     fn difference(&mut self, x: Arg, y: Arg) -> Option<Arg> {
-        if x == y {
-            return Some(self.draft.constant(0.0));
-        }
         if let Some(c) = self.constant(y) {
-            let c = self.draft.constant(-c);
+            let c = self.number(-c);
             return Some(self.build(Op::Add, &[x, c]));
         }
-        if self.constant(x) == Some(0.0) {
-            return Some(self.build(Op::Neg, &[y]));
-        }
-        if let Some((inner, _)) = self.operands(y, Op::Neg) {
+        if let Some(inner) = self.negated(y) {
             return Some(self.build(Op::Add, &[x, inner]));
         }
         if self.constant(x).is_some() {
@@ -146,9 +134,6 @@ impl Simplifier {
     }
 
     fn negation(&mut self, x: Arg) -> Option<Arg> {
-        if let Some((inner, _)) = self.operands(x, Op::Neg) {
-            return Some(inner);
-        }
         if let Some((left, right)) = self.operands(x, Op::Sub)
             && self.is_read_once(x)
         {
@@ -171,7 +156,7 @@ impl Simplifier {
             return self.product_with_constant(x, y);
         }
         for (a, b) in [(x, y), (y, x)] {
-            if let Some((inner, _)) = self.operands(a, Op::Neg) {
+            if let Some(inner) = self.negated(a) {
                 let product = self.build(Op::Mul, &[inner, b]);
                 return Some(self.build(Op::Neg, &[product]));
             }
@@ -195,17 +180,11 @@ impl Simplifier {
     }
 
     fn product_with_constant(&mut self, x: Arg, c: Arg) -> Option<Arg> {
-        match self.constant(c) {
-            Some(1.0) => return Some(x),
-            Some(-1.0) => return Some(self.build(Op::Neg, &[x])),
-            Some(0.0) => return Some(self.draft.constant(0.0)),
-            _ => {}
-        }
         if let Some((inner, c2)) = self.constant_last(x, Op::Mul) {
             let c = self.fold(Op::Mul, &[c2, c])?;
             return Some(self.build(Op::Mul, &[inner, c]));
         }
-        if let Some((inner, _)) = self.operands(x, Op::Neg) {
+        if let Some(inner) = self.negated(x) {
             let c = self.fold(Op::Neg, &[c])?;
             return Some(self.build(Op::Mul, &[inner, c]));
         }
@@ -230,14 +209,14 @@ impl Simplifier {
 
     fn quotient(&mut self, x: Arg, y: Arg) -> Option<Arg> {
         if x == y {
-            return Some(self.draft.constant(1.0));
+            return Some(self.number(1.0));
         }
         if let Some(c) = self.constant(y) {
             let inverse = 1.0 / c;
             if !inverse.is_finite() {
                 return None;
             }
-            let inverse = self.draft.constant(inverse);
+            let inverse = self.number(inverse);
             return Some(self.build(Op::Mul, &[x, inverse]));
         }
         if let Some((inner, _)) = self.operands(y, Op::Rcp) {
@@ -245,7 +224,9 @@ impl Simplifier {
         }
         if self.constant(x).is_some() {
             // c₁ / (c₂ y)
-            if let Some((inner, c2)) = self.constant_last(y, Op::Mul) {
+            if let Some((inner, c2)) = self.constant_last(y, Op::Mul)
+                && self.is_read_once(y)
+            {
                 let c = self.fold(Op::Div, &[x, c2])?;
                 return Some(self.build(Op::Div, &[c, inner]));
             }
@@ -257,7 +238,7 @@ impl Simplifier {
             return Some(self.build(Op::Mul, &[x, inverse]));
         }
         for (a, b, numerator) in [(x, y, true), (y, x, false)] {
-            if let Some((inner, _)) = self.operands(a, Op::Neg) {
+            if let Some(inner) = self.negated(a) {
                 let quotient =
                     self.build(Op::Div, &if numerator { [inner, b] } else { [b, inner] });
                 return Some(self.build(Op::Neg, &[quotient]));
@@ -280,9 +261,6 @@ impl Simplifier {
     }
 
     fn extremum(&mut self, op: Op, x: Arg, y: Arg) -> Option<Arg> {
-        if x == y {
-            return Some(x);
-        }
         for (a, b) in [(x, y), (y, x)] {
             if let Some(clamped) = self.unit_clamp(op, a, b) {
                 return Some(clamped);
