@@ -19,7 +19,7 @@ pub use profile::Profile;
 
 use crate::op::Op;
 use crate::program::{Arg, Draft};
-use crate::simplify::Simplifier;
+use crate::simplify::{Simplifier, folded_draft};
 use chip::{Chip, Slots, busiest};
 use form::{Form, find_forms};
 use serde::Serialize;
@@ -75,7 +75,8 @@ pub struct OpCost {
 }
 
 impl Profile {
-    /// The cycles of a draft's effective code, folded; for a mix the weighted mean.
+    /// The cycles of a draft's effective code, folded; for a mix the weighted mean. Equal constants count as
+    /// different ones, since they may be fitted apart.
     pub fn cycles(&self, draft: &Draft, scratch: &mut CostScratch) -> f64 {
         if Simplifier::is_folded(draft) {
             return self.cycles_of_folded(draft, scratch);
@@ -98,8 +99,7 @@ impl Profile {
     /// The cost of a draft's effective code, folded; for a mix the weighted means, but the most registers,
     /// and the operations on its first GPU.
     pub fn cost(&self, draft: &Draft) -> Cost {
-        let mut folded = Draft::default();
-        Simplifier::default().fold_constants(draft, &mut folded);
+        let folded = folded_draft(draft);
         let mut costs = self.chips.iter().map(|(share, chip)| (*share, chip_cost(&folded, chip)));
         let (share, mut whole) = costs.next().expect("a profile has a chip");
         whole.cycles *= share;

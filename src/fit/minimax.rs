@@ -1,6 +1,7 @@
 //! The least maximum error.
 
 use super::linear_programs::by_linear_programs;
+use super::rounding::Comparison;
 use super::shorten::{MOST_DIGITS, rounded};
 use super::{Fitter, Stop};
 use crate::eval::{Samples, Tape, Values};
@@ -102,8 +103,8 @@ const NEAR: f64 = 1.3;
 /// So that a sample that happens to be met exactly can come back.
 const LEAST_GROWTH: f32 = 0.05;
 
-/// Rounds constants one after the other, each to the fewest decimal digits with which the largest
-/// error stays within `(1 + allowance)` of what it was. Gives that error.
+/// Rounds constants one after the other, each to 0 or the fewest decimal digits with which the largest
+/// error stays within `(1 + allowance)` of what it was, or below the data's own rounding. Gives that error.
 ///
 /// # Panics
 /// As [`Fitter::fit`].
@@ -113,22 +114,19 @@ pub fn shorten_minimax(
     samples: &Samples,
     allowance: f64,
 ) -> f64 {
-    let mut values = Values::default();
-    let mut largest = errors(fitter, program, samples, &mut values).1;
-    let limit = largest * (1.0 + allowance);
+    let mut comparison = Comparison::by_maximum(samples);
+    let limit = comparison.error(fitter, program) * (1.0 + allowance);
     for constant in 0..program.consts.len() {
         let exact = program.consts[constant];
-        for digits in 1..=MOST_DIGITS {
+        for digits in 0..=MOST_DIGITS {
             program.consts[constant] = rounded(exact, digits);
-            let error = errors(fitter, program, samples, &mut values).1;
-            if error <= limit {
-                largest = error;
+            if comparison.error(fitter, program) <= limit {
                 break;
             }
             program.consts[constant] = exact;
         }
     }
-    largest
+    errors(fitter, program, samples, &mut Values::default()).1
 }
 
 /// To a mean of 1, with a floor that keeps every sample in sight.

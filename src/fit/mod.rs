@@ -7,6 +7,8 @@ mod linear_programs;
 mod measure;
 mod minimax;
 mod model;
+mod negligible;
+mod rounding;
 mod shorten;
 
 pub use derivative::Differentiated;
@@ -14,4 +16,6 @@ pub use levenberg_marquardt::{Fitter, Stop};
 pub use measure::Measure;
 pub use minimax::{Rounds, minimax, minimax_free, shorten_minimax};
 pub use model::{Parameter, fit_model};
-pub use shorten::shorten;
+pub use negligible::{drop_negligible, drop_negligible_minimax};
+pub use rounding::rounding_errors;
+pub use shorten::{shorten, shorten_free};

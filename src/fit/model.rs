@@ -1,6 +1,6 @@
 //! A model of the user's own: some constants free, some within bounds, from several starts.
 
-use super::{Fitter, Measure, Rounds, Stop, minimax_free};
+use super::{Fitter, Measure, Rounds, Stop, minimax_free, shorten_free};
 use crate::eval::Samples;
 use crate::program::Draft;
 use rand::{RngExt, SeedableRng};
@@ -21,7 +21,8 @@ const TO_CONVERGENCE: Stop = Stop { max_steps: 500, min_gain: 1e-10 };
 /// gives the loss of the best of `starts` fits: the weighted sum of squares, or for [`Measure::Max`] the
 /// largest error. The first start is what the program has; the others are drawn within the bounds,
 /// or where there are none, up to three octaves from it. A parameter that would leave its bounds
-/// is held at the one that it meets, and the others are fitted again.
+/// is held at the one that it meets, and the others are fitted again. Digits that make no difference beyond the
+/// data's own rounding are left out.
 ///
 /// # Panics
 /// As [`Fitter::fit`].
@@ -51,7 +52,30 @@ pub fn fit_model(
             program.copy_from(&trial);
         }
     }
+    if measure != Measure::Max && least.is_finite() {
+        least = rounded_within(&mut fitter, program, samples, parameters).unwrap_or(least);
+    }
     least
+}
+
+/// Parameters without digits below the data's rounding, where all stay within their bounds; the loss.
+fn rounded_within(
+    fitter: &mut Fitter,
+    program: &mut Draft,
+    samples: &Samples,
+    parameters: &[Parameter],
+) -> Option<f64> {
+    let mut short = program.clone();
+    let is_free = |index: usize| parameters.iter().any(|parameter| parameter.index == index);
+    let loss = shorten_free(fitter, &mut short, samples, 0.0, is_free);
+    let is_within = |parameter: &Parameter| {
+        let [low, high] = parameter.bounds;
+        (low..=high).contains(&short.consts[parameter.index])
+    };
+    parameters.iter().all(is_within).then(|| {
+        program.copy_from(&short);
+        loss
+    })
 }
 
 fn drawn(rng: &mut ChaCha8Rng, value: f32, [low, high]: [f32; 2]) -> f32 {
@@ -124,6 +148,14 @@ mod tests {
         let (loss, draft) =
             fitted("y = sin($a*x)", |x| (23.0 * x).sin(), [0.0, 40.0], Measure::Rmse);
         assert!(loss < 1e-6, "{loss} {:?}", draft.consts);
+    }
+
+    #[test]
+    fn a_law_s_constants_are_found_to_the_digit() {
+        let (_, draft) = fitted("y = $a*x + $b", |x| 2.5 * x - 0.75, ANY, Measure::Rmse);
+        assert_eq!(draft.consts, [2.5, -0.75]);
+        let (_, draft) = fitted("y = $a*x + $b", |x| 2.5 * x, ANY, Measure::Rmse);
+        assert_eq!(draft.consts, [2.5, 0.0]);
     }
 
     #[test]

@@ -1,5 +1,6 @@
 //! Constants with few digits.
 
+use super::rounding::Comparison;
 use super::{Fitter, Stop};
 use crate::eval::Samples;
 use crate::program::Draft;
@@ -7,26 +8,42 @@ use crate::program::Draft;
 /// After a constant was rounded, the others make up for it.
 const MAKE_UP: Stop = Stop { max_steps: 6, min_gain: 1e-4 };
 
-/// Digits beyond which an `f32` constant is left as it is.
-pub(super) const MOST_DIGITS: usize = 6;
+const NOTHING: Stop = Stop { max_steps: 0, min_gain: 0.0 };
 
-/// Rounds constants one after the other, each to the fewest decimal digits with which the sum of
-/// squares, the remaining constants fitted again, stays within `(1 + allowance)` of what it was.
-/// Gives the sum of squares.
+/// Digits beyond which an `f32` constant is left as it is.
+pub(super) const MOST_DIGITS: usize = 7;
+
+/// Rounds constants one after the other, each to 0 or the fewest decimal digits with which the sum of
+/// squares, the remaining constants fitted again, stays within `(1 + allowance)` of what it was, or below the
+/// data's own rounding. Gives the sum of squares.
 ///
 /// # Panics
 /// As [`Fitter::fit`].
 pub fn shorten(fitter: &mut Fitter, program: &mut Draft, samples: &Samples, allowance: f64) -> f64 {
-    let nothing = Stop { max_steps: 0, min_gain: 0.0 };
-    let mut loss = fitter.fit(program, samples, nothing);
-    let limit = loss * (1.0 + allowance);
+    shorten_free(fitter, program, samples, allowance, |_| true)
+}
+
+/// [`shorten`] of those constants that are free, by index; the others keep their values.
+pub fn shorten_free(
+    fitter: &mut Fitter,
+    program: &mut Draft,
+    samples: &Samples,
+    allowance: f64,
+    is_free: impl Fn(usize) -> bool,
+) -> f64 {
+    let mut loss = fitter.fit(program, samples, NOTHING);
+    let mut comparison = Comparison::by_squares(samples);
+    let limit = comparison.error(fitter, program) * (1.0 + allowance);
     let mut trial = program.clone();
-    for constant in 0..program.consts.len() {
-        for digits in 1..=MOST_DIGITS {
+    for constant in (0..program.consts.len()).filter(|&constant| is_free(constant)) {
+        for digits in 0..=MOST_DIGITS {
             trial.copy_from(program);
             trial.consts[constant] = rounded(program.consts[constant], digits);
-            let trial_loss = fitter.fit_free(&mut trial, samples, MAKE_UP, |i| i > constant);
-            if trial_loss <= limit {
+            // What is nearly 0 needs nothing to make up for it.
+            let stop = if digits == 0 { NOTHING } else { MAKE_UP };
+            let trial_loss =
+                fitter.fit_free(&mut trial, samples, stop, |i| i > constant && is_free(i));
+            if comparison.error(fitter, &trial) <= limit {
                 program.copy_from(&trial);
                 loss = trial_loss;
                 break;
@@ -36,8 +53,11 @@ pub fn shorten(fitter: &mut Fitter, program: &mut Draft, samples: &Samples, allo
     loss
 }
 
-/// The value with so many significant decimal digits.
+/// The value with so many significant decimal digits; 0 with none.
 pub(super) fn rounded(value: f32, digits: usize) -> f32 {
+    if digits == 0 {
+        return 0.0;
+    }
     format!("{value:.*e}", digits - 1).parse().unwrap_or(value)
 }
 
@@ -52,6 +72,7 @@ mod tests {
         assert_eq!(rounded(6.9823, 1), 7.0);
         assert_eq!(rounded(-0.012345, 2), -0.012);
         assert_eq!(rounded(0.0, 3), 0.0);
+        assert_eq!(rounded(5e-26, 0), 0.0);
         assert_eq!(rounded(9.99e-40, 1), 1e-39);
     }
 
@@ -72,5 +93,19 @@ mod tests {
         let shortened = shorten(&mut fitter, &mut draft, &samples, 0.01);
         assert!(shortened <= fitted * 1.01, "{fitted} {shortened}");
         assert!(digits(&draft) * 2 < before, "{before} {:?}", draft.consts);
+    }
+
+    #[test]
+    fn digits_below_the_data_s_rounding_are_none() {
+        let xs: Vec<f32> = (0..100).map(|i| i as f32 / 99.0).collect();
+        let ys = xs.iter().map(|x| 2.5 * x - 0.75).collect();
+        let zeros = vec![0.0; 100];
+        let split = Split { columns: vec![xs, ys, zeros], ..Split::default() };
+        let samples = Samples::new(&split, 1);
+        let names = Names::new(["x"], ["y", "z"]);
+        let text = "y = 2.5000002*x - 0.75000024; z = 5e-26";
+        let mut draft = parse(text, &names).unwrap().into_draft();
+        shorten(&mut Fitter::default(), &mut draft, &samples, 0.0);
+        assert_eq!(draft.consts, [2.5, 0.75, 0.0]);
     }
 }

@@ -7,7 +7,7 @@ use super::{View, idle};
 use crate::cost::{CostScratch, Profile};
 use crate::dataset::{Dataset, joint_unit, output_units};
 use crate::eval::Samples;
-use crate::fit::{Fitter, Measure, Stop, shorten};
+use crate::fit::{Fitter, Measure, Stop, drop_negligible, shorten};
 use crate::op::Op;
 use crate::program::{Constants, Draft, Program, effective, structural_hash};
 use crate::simplify::tidy;
@@ -257,6 +257,7 @@ impl<'a> Work<'a> {
         let short = |draft: &Draft| {
             let (mut fitter, mut draft) = (Fitter::default(), draft.clone());
             fitter.fit(&mut draft, all, TO_CONVERGENCE);
+            drop_negligible(&mut fitter, &mut draft, all, SHORTENING_ALLOWANCE);
             shorten(&mut fitter, &mut draft, all, SHORTENING_ALLOWANCE);
             Some(effective(&tidy(&Program::verify(draft).ok()?)))
         };

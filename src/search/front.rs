@@ -1,6 +1,7 @@
 //! The front: what a search leaves behind.
 
 use super::polish::{polish, promising};
+use super::rounding::beyond_rounding;
 use super::{Problem, Search};
 use crate::cost::{Cost, Profile};
 use crate::dataset::Dataset;
@@ -121,7 +122,8 @@ impl Front {
             .par_iter()
             .filter_map(|draft| polish(draft, problem, &samples, &names, measure))
             .filter(|member| member.cost <= search.settings().max_cost);
-        let mut front = Front::from_members(polished.collect(), measure);
+        let members = beyond_rounding(polished.collect(), problem, measure);
+        let mut front = Front::from_members(members, measure);
         front.judge(&problem.questions(), &names);
         front
     }

@@ -21,6 +21,7 @@ mod polish;
 mod population;
 mod record;
 mod require;
+mod rounding;
 mod scales;
 mod transform;
 mod vary;

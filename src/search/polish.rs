@@ -1,11 +1,15 @@
 //! What is done to a formula before it is shown.
 
 use super::front::FrontMember;
+use super::rounding::Rounding;
 use super::{Problem, near_the_least};
 use crate::cost::CostScratch;
 use crate::dataset::Column;
 use crate::eval::{Arithmetic, Bounds, Samples};
-use crate::fit::{Fitter, Measure, Rounds, Stop, minimax, shorten, shorten_minimax};
+use crate::fit::{
+    Fitter, Measure, Rounds, Stop, drop_negligible, drop_negligible_minimax, minimax, shorten,
+    shorten_minimax,
+};
 use crate::num::{Interval, enclose};
 use crate::op::{MAX_ARITY, Op};
 use crate::program::{Arg, Draft, Names, Program, effective};
@@ -21,8 +25,8 @@ const SHORTENING_ALLOWANCE: f64 = 0.004;
 /// The same for the maximum error.
 const MINIMAX_ALLOWANCE: f64 = 0.01;
 
-/// Fits to convergence, shortens the constants, and drops what the constants or the domain have
-/// made superfluous. Nothing where the formula is not finite on every sample.
+/// Fits to convergence, drops constants that do nothing and shortens the others, and drops what the constants
+/// or the domain have made superfluous. Nothing where the formula is not finite on every sample.
 pub(super) fn polish(
     draft: &Draft,
     problem: &Problem,
@@ -31,18 +35,35 @@ pub(super) fn polish(
     measure: Measure,
 ) -> Option<FrontMember> {
     let mut fitter = Fitter::default();
-    let mut draft = draft.clone();
+    let mut fitted = draft.clone();
+    let mut smaller;
     if measure == Measure::Max {
-        minimax(&mut fitter, &mut draft, samples, Rounds::TO_CONVERGENCE);
-        shorten_minimax(&mut fitter, &mut draft, samples, MINIMAX_ALLOWANCE);
+        minimax(&mut fitter, &mut fitted, samples, Rounds::TO_CONVERGENCE);
+        smaller = fitted.clone();
+        drop_negligible_minimax(&mut fitter, &mut smaller, samples, MINIMAX_ALLOWANCE);
     } else {
-        fitter.fit(&mut draft, samples, TO_CONVERGENCE);
-        shorten(&mut fitter, &mut draft, samples, SHORTENING_ALLOWANCE);
+        fitter.fit(&mut fitted, samples, TO_CONVERGENCE);
+        smaller = fitted.clone();
+        drop_negligible(&mut fitter, &mut smaller, samples, SHORTENING_ALLOWANCE);
     }
-    finished(&draft, problem, names, measure).or_else(|| {
-        // What leaves its range is brought into it, if that is all that is wrong.
-        let clamped = problem.clamped(&draft)?;
-        finished(&clamped, problem, names, measure)
+    let mut short = |mut draft: Draft| {
+        if measure == Measure::Max {
+            shorten_minimax(&mut fitter, &mut draft, samples, MINIMAX_ALLOWANCE);
+        } else {
+            shorten(&mut fitter, &mut draft, samples, SHORTENING_ALLOWANCE);
+        }
+        draft
+    };
+    let smaller = short(smaller);
+    let found = finished(&smaller, problem, names, measure);
+    // A constant that does nothing on samples may keep a divisor from zero between them.
+    found.or_else(|| {
+        let draft = short(fitted);
+        finished(&draft, problem, names, measure).or_else(|| {
+            // What leaves its range is brought into it, if that is all that is wrong.
+            let clamped = problem.clamped(&draft)?;
+            finished(&clamped, problem, names, measure)
+        })
     })
 }
 
@@ -70,12 +91,13 @@ fn finished(
         let member = FrontMember::new(program, problem.dataset, problem.profile, names);
         (!reads_only_constants(&member.program)).then_some(member)
     });
-    let error = |member: &FrontMember| (member.cost, member.search_error().of(measure) * WORSE);
+    let rounding = Rounding::of(problem);
+    let error = |member: &FrontMember| rounding.at_least(&member.score).joint_search().of(measure);
     let shown =
         finished.filter(|member| member.score.is_finite() && problem.shows(&member.program));
     shown.reduce(|plain, other| {
-        let ((cost, error), other_error) = (error(&plain), other.search_error().of(measure));
-        if other.cost <= cost && other_error <= error { other } else { plain }
+        let as_good = other.cost <= plain.cost && error(&other) <= error(&plain) * WORSE;
+        if as_good { other } else { plain }
     })
 }
 

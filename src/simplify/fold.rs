@@ -7,32 +7,40 @@ use crate::program::{Arg, Draft, Instr, Program};
 /// The program as compilers run it: effective code, constants folded, nothing that does nothing, nothing
 /// twice. The order of operands stays.
 pub fn folded(program: &Program) -> Program {
+    Program::verify(folded_draft(program)).unwrap_or_else(|_| program.clone())
+}
+
+/// [`folded`], of drafts.
+pub fn folded_draft(draft: &Draft) -> Draft {
+    let mut simplifier =
+        Simplifier { only_folds: true, merges_constants: true, ..Simplifier::default() };
     let mut target = Draft::default();
-    Simplifier::default().fold_constants(program, &mut target);
-    Program::verify(target).unwrap_or_else(|_| program.clone())
+    simplifier.settle(draft, &mut target);
+    target
 }
 
 impl Simplifier {
-    /// [`folded`], of drafts.
+    /// [`folded_draft`], but that equal constants stay apart, since they may be fitted apart.
     pub fn fold_constants(&mut self, source: &Draft, target: &mut Draft) {
         self.only_folds = true;
+        self.merges_constants = false;
         self.settle(source, target);
     }
 
     /// Whether folding would surely do nothing to a draft but leave out introns: a quick look, for costing
     /// candidates that are simplified already.
     pub fn is_folded(draft: &Draft) -> bool {
-        let each = draft.instrs.iter().enumerate();
-        each.clone().all(|(i, instr)| {
+        let mut each = draft.instrs.iter().enumerate();
+        each.all(|(i, instr)| {
             !may_do_nothing(draft, instr)
-                && !draft.instrs[..i].iter().any(|other| is_same(draft, instr, other))
+                && !draft.instrs[..i].iter().any(|other| is_same(instr, other))
         })
     }
 
     /// The number in the constant table; in folded programs each once.
     pub(super) fn number(&mut self, value: f32) -> Arg {
         let known = || self.draft.consts.iter().position(|c| c.to_bits() == value.to_bits());
-        match self.only_folds.then(known).flatten() {
+        match self.merges_constants.then(known).flatten() {
             Some(known) => Arg::Const(known as u16),
             None => self.draft.constant(value),
         }
@@ -46,6 +54,12 @@ impl Simplifier {
         }
         self.draft.instrs.iter().position(|known| known == instr || *known == swapped)
     }
+}
+
+/// Whether an instruction stands twice, with the same constants.
+pub(super) fn has_twice(draft: &Draft) -> bool {
+    let mut each = draft.instrs.iter().enumerate();
+    each.any(|(i, instr)| draft.instrs[..i].contains(instr))
 }
 
 /// Whether an operation may be one of those that folding leaves out; not all are, as `1/0` is not.
@@ -66,16 +80,14 @@ fn may_do_nothing(draft: &Draft, instr: &Instr) -> bool {
     }
     match instr.op() {
         Op::Add => args.iter().any(is_zero),
-        Op::Sub => is_same_arg(draft, args[0], args[1]) || args.iter().any(is_zero),
+        Op::Sub => args[0] == args[1] || args.iter().any(is_zero),
         Op::Mul => args.iter().any(is_trivial),
         Op::Div => is_zero(&args[0]) || is_trivial(&args[1]),
         Op::Mad => args[..2].iter().any(is_trivial) || is_zero(&args[2]),
         Op::Pow => is_trivial(&args[1]),
-        Op::Min | Op::Max => is_same_arg(draft, args[0], args[1]),
-        Op::Lerp => is_same_arg(draft, args[0], args[1]) || is_zero(&args[2]),
-        Op::Select => {
-            is_same_arg(draft, args[2], args[3]) || args[..2].iter().all(|a| constant(a).is_some())
-        }
+        Op::Min | Op::Max => args[0] == args[1],
+        Op::Lerp => args[0] == args[1] || is_zero(&args[2]),
+        Op::Select => args[2] == args[3] || args[..2].iter().all(|a| constant(a).is_some()),
         op @ (Op::Neg | Op::Abs | Op::Saturate | Op::Floor | Op::Sign) => {
             inner(args[0]) == Some(op)
         }
@@ -83,25 +95,8 @@ fn may_do_nothing(draft: &Draft, instr: &Instr) -> bool {
     }
 }
 
-/// Whether two arguments are one value by what they are; constants by what they hold.
-fn is_same_arg(draft: &Draft, a: Arg, b: Arg) -> bool {
-    match (a, b) {
-        (Arg::Const(a), Arg::Const(b)) => {
-            draft.consts[usize::from(a)].to_bits() == draft.consts[usize::from(b)].to_bits()
-        }
-        _ => a == b,
-    }
-}
-
-fn is_same(draft: &Draft, instr: &Instr, other: &Instr) -> bool {
+fn is_same(instr: &Instr, other: &Instr) -> bool {
     let (a, b) = (instr.args(), other.args());
-    if instr.op() != other.op() {
-        return false;
-    }
-    let alike = |from: usize| (from..a.len()).all(|i| is_same_arg(draft, a[i], b[i]));
-    let swapped = instr.op().commutes()
-        && is_same_arg(draft, a[0], b[1])
-        && is_same_arg(draft, a[1], b[0])
-        && alike(2);
-    alike(0) || swapped
+    let swapped = instr.op().commutes() && instr.op() == other.op();
+    instr == other || swapped && a[0] == b[1] && a[1] == b[0] && a[2..] == b[2..]
 }

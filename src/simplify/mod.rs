@@ -16,11 +16,12 @@
 
 mod fold;
 mod identities;
+mod ratios;
 mod rescale;
 mod rules;
 mod tidy;
 
-pub use fold::folded;
+pub use fold::{folded, folded_draft};
 pub use rescale::{InputScale, Placement, rescaled};
 pub use tidy::tidy;
 
@@ -44,9 +45,12 @@ pub struct Simplifier {
     scratch: Vec<u32>,
     /// Whether nothing is done but to fold.
     only_folds: bool,
+    /// Whether equal constants are one; otherwise they can be fitted apart.
+    merges_constants: bool,
     /// Whether anything but introns was left out or made anew.
     changed: bool,
     previous: Draft,
+    shared: Draft,
 }
 
 /// Passes over a program, at most; hardly any needs more than three.
@@ -55,8 +59,18 @@ const MOST_PASSES: usize = 12;
 impl Simplifier {
     /// Writes a simpler form of `source`'s effective code to `target`.
     pub fn simplify(&mut self, source: &Draft, target: &mut Draft) {
+        self.merges_constants = false;
         self.only_folds = false;
-        self.settle(source, target);
+        if !fold::has_twice(source) {
+            return self.settle(source, target);
+        }
+        // Whether a result is read once shows when what is written twice is shared.
+        let mut shared = std::mem::take(&mut self.shared);
+        self.only_folds = true;
+        self.settle(source, &mut shared);
+        self.only_folds = false;
+        self.settle(&shared, target);
+        self.shared = shared;
     }
 
     /// Passes until nothing changes.

@@ -176,7 +176,7 @@ impl Simplifier {
         {
             return Some(inner);
         }
-        None
+        self.normal_product(x, y)
     }
 
     fn product_with_constant(&mut self, x: Arg, c: Arg) -> Option<Arg> {
@@ -194,17 +194,7 @@ impl Simplifier {
             let c = self.fold(Op::Mul, &[left, c])?;
             return Some(self.build(Op::Div, &[c, right]));
         }
-        self.distributed(x, c)
-    }
-
-    /// `(c₁ x + c₂) c = (c₁ c) x + c₂ c`, which saves a product.
-    fn distributed(&mut self, x: Arg, c: Arg) -> Option<Arg> {
-        let (sum, c2) = self.constant_last(x, Op::Add).filter(|_| self.is_read_once(x))?;
-        let (inner, c1) = self.constant_last(sum, Op::Mul).filter(|_| self.is_read_once(sum))?;
-        let c1 = self.fold(Op::Mul, &[c1, c])?;
-        let c2 = self.fold(Op::Mul, &[c2, c])?;
-        let product = self.build(Op::Mul, &[inner, c1]);
-        Some(self.build(Op::Add, &[product, c2]))
+        self.scaled_sum(x, c).or_else(|| self.scaled_quotient(x, c))
     }
 
     fn quotient(&mut self, x: Arg, y: Arg) -> Option<Arg> {
@@ -245,9 +235,13 @@ impl Simplifier {
             }
         }
         // (c x) / y = (x / y) c
-        let (inner, c) = self.constant_last(x, Op::Mul).filter(|_| self.is_read_once(x))?;
-        let quotient = self.build(Op::Div, &[inner, y]);
-        Some(self.build(Op::Mul, &[quotient, c]))
+        if let Some((inner, c)) = self.constant_last(x, Op::Mul)
+            && self.is_read_once(x)
+        {
+            let quotient = self.build(Op::Div, &[inner, y]);
+            return Some(self.build(Op::Mul, &[quotient, c]));
+        }
+        self.normal_quotient(x, y)
     }
 
     /// `1/exp2(x)` as `exp2(−x)`, where nothing else reads the power: signs are free, an inverse is not.

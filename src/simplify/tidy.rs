@@ -3,8 +3,8 @@
 use crate::op::Op;
 use crate::program::{Arg, Draft, Instr, Program};
 
-/// Writes sums with negative constants, and with products by them, as differences, and the other
-/// way round: `x + −c` as `x − c`, `−c·x + y` as `y − c·x`, `y − −c·x` as `y + c·x`. Signs
+/// Writes sums with negative constants, and with products and quotients of them, as differences, and the other
+/// way round: `x + −c` as `x − c`, `−c·x + y` as `y − c·x`, `y − −c/x` as `y + c/x`. Signs
 /// are exact in IEEE-754, so every value keeps its bits.
 pub fn tidy(program: &Program) -> Program {
     let mut draft = program.clone().into_draft();
@@ -24,7 +24,7 @@ pub fn tidy(program: &Program) -> Program {
     Program::verify(draft).unwrap_or_else(|_| program.clone())
 }
 
-/// `−arg`, if `arg` is a negative constant, or a product by one that only instruction `reader` reads;
+/// `−arg`, if `arg` is a negative constant, or a product or a quotient of one that only instruction `reader` reads;
 /// the product is changed in place.
 fn positive(draft: &mut Draft, arg: Arg, reader: usize) -> Option<Arg> {
     match arg {
@@ -35,7 +35,7 @@ fn positive(draft: &mut Draft, arg: Arg, reader: usize) -> Option<Arg> {
         }
         Arg::Result(i) => {
             let product = draft.instrs[usize::from(i)];
-            if product.op() != Op::Mul || !is_read_once(draft, arg, reader) {
+            if !matches!(product.op(), Op::Mul | Op::Div) || !is_read_once(draft, arg, reader) {
                 return None;
             }
             let place = product.args().iter().position(|a| matches!(a, Arg::Const(_)))?;

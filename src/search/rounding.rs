@@ -1,0 +1,77 @@
+//! Which of polished formulas win by more than the data's rounding.
+
+use super::{FrontMember, Problem};
+use crate::eval::{OutputError, Score};
+use crate::fit::{Measure, rounding_errors};
+use crate::program::Arg;
+
+/// By rising cost, those whose error is less than that of every cheaper one, and of every simpler one of the
+/// same cost. Of two below the data's rounding, output by output, neither is less.
+pub(super) fn beyond_rounding(
+    members: Vec<FrontMember>,
+    problem: &Problem,
+    measure: Measure,
+) -> Vec<FrontMember> {
+    let rounding = Rounding::of(problem);
+    let error = |member: &FrontMember| {
+        let score = rounding.at_least(&member.score);
+        FrontMember { score, ..member.clone() }.deciding_error(measure)
+    };
+    let mut ranked: Vec<(f64, FrontMember)> =
+        members.into_iter().map(|member| (error(&member), member)).collect();
+    ranked.sort_by(|(a_error, a), (b_error, b)| {
+        let by_error = a.cost.total_cmp(&b.cost).then(a_error.total_cmp(b_error));
+        by_error.then(size(a).cmp(&size(b))).then_with(|| a.formula.cmp(&b.formula))
+    });
+    let mut least = f64::INFINITY;
+    ranked.retain(|(error, _)| {
+        let kept = *error < least;
+        least = least.min(*error);
+        kept
+    });
+    ranked.into_iter().map(|(_, member)| member).collect()
+}
+
+/// The errors that are rounding, by output, on the search split and the validation split.
+pub(super) struct Rounding([Vec<OutputError>; 2]);
+
+impl Rounding {
+    pub fn of(problem: &Problem) -> Rounding {
+        let dataset = problem.dataset;
+        Rounding([&dataset.search, &dataset.validation].map(|split| {
+            let outputs = &split.columns[dataset.inputs.len()..];
+            outputs.iter().map(|values| rounding_errors(values)).collect()
+        }))
+    }
+
+    /// A score none of whose errors is below rounding.
+    pub fn at_least(&self, score: &Score) -> Score {
+        let raised = |errors: &[OutputError], rounding: &[OutputError]| {
+            errors.iter().zip(rounding).map(|(error, least)| larger(error, least)).collect()
+        };
+        let [search, validation] = &self.0;
+        Score {
+            search: raised(&score.search, search),
+            validation: raised(&score.validation, validation),
+            units: score.units.clone(),
+        }
+    }
+}
+
+fn larger(error: &OutputError, least: &OutputError) -> OutputError {
+    let some = |error: Option<f64>, least: Option<f64>| Some(error?.max(least.unwrap_or(0.0)));
+    OutputError {
+        rmse: error.rmse.max(least.rmse),
+        max: error.max.max(least.max),
+        relative: error.relative.max(least.relative),
+        weighted: some(error.weighted, least.weighted),
+        visible: some(error.visible, least.visible),
+    }
+}
+
+/// Instructions and constants, then characters.
+fn size(member: &FrontMember) -> (usize, usize) {
+    let args = member.program.instrs.iter().flat_map(|instr| instr.args());
+    let constants = args.filter(|arg| matches!(arg, Arg::Const(_))).count();
+    (member.program.instrs.len() + constants, member.formula.len())
+}
