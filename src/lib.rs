@@ -10,6 +10,7 @@
 //!
 //! | module | owns |
 //! |---|---|
+//! | [`deadline`] | when work ends before it is done |
 //! | [`num`] | registers of lanes, and mathematics with the same bits at every width; low-discrepancy points, sums |
 //! | [`op`] | the one table of operations, and what they mean |
 //! | [`program`] | instructions, verified programs, effective code, hashes, formula text |
@@ -54,6 +55,7 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 
+pub mod deadline;
 pub mod suggest;
 
 pub mod num;

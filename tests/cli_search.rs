@@ -107,6 +107,33 @@ fn a_seed_gives_the_same_front_with_one_thread_and_with_two() {
 }
 
 #[test]
+fn the_time_of_each_phase_is_told() {
+    let (_, output) = short_run(&["--timings", "--time", "1h"]);
+    let errors = text(&output.stderr);
+    let line = errors.lines().find(|line| line.starts_with("timings: ")).expect(&errors);
+    for phase in ["reading", "start", "search", "polishing", "verdicts", "files", "pictures"] {
+        assert!(line.contains(phase), "{line}");
+    }
+}
+
+#[test]
+fn a_run_without_time_is_whole() {
+    let folder = tempfile::tempdir().unwrap();
+    std::fs::copy(datasets().join("dfg.bin"), folder.path().join("dfg.bin")).unwrap();
+    let output =
+        lgp(folder.path(), &["search", "dfg.bin", "--time", "0", "--out", "run", "--json"]);
+    assert!(output.status.success(), "{}", text(&output.stderr));
+    let members: Value = serde_json::from_slice(&output.stdout).unwrap();
+    assert_eq!(members[0]["cost"], 0.0);
+    for file in ["front.json", "front-max.json", "checkpoint.bin", "run.ron", "report.html"] {
+        assert!(folder.path().join("run").join(file).is_file(), "{file}");
+    }
+    let again = ["search", "dfg.bin", "--generations", "1", "--out", "run", "--resume", "--quiet"];
+    let resumed = lgp(folder.path(), &again);
+    assert!(resumed.status.success(), "{}", text(&resumed.stderr));
+}
+
+#[test]
 fn a_resumed_run_ends_as_an_uninterrupted_one() {
     let (whole, _) = short_run(&[]);
     let folder = tempfile::tempdir().unwrap();

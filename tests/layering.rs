@@ -2,7 +2,8 @@
 
 use std::path::{Path, PathBuf};
 
-const LAYERS: [&str; 20] = [
+const LAYERS: [&str; 21] = [
+    "deadline",
     "suggest",
     "num",
     "op",

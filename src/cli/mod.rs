@@ -7,7 +7,9 @@ mod cost;
 mod duration;
 mod emit;
 mod eval;
+mod evolve;
 mod failure;
+mod finish;
 mod fit;
 mod front;
 mod generate;
@@ -29,6 +31,7 @@ mod search;
 mod specialize;
 mod subject;
 mod tiers;
+mod timings;
 mod verify;
 
 pub use failure::{Exit, Failure};

@@ -1,23 +1,23 @@
+use super::evolve::{evolve, time_of};
+use super::finish;
 use super::plan::Plan;
 use super::run_folder::{self, PartialRun};
+use super::timings::Timings;
 use super::{Common, Exit, Failure, columns::Columns, duration, refusals, report, tiers};
+use crate::deadline::{Deadline, Stop};
 use crate::fit::Measure;
-use crate::report::table::{Published, front_table, title};
+use crate::report::table::{Published, front_table};
 use crate::search::{
-    Budget, Checkpoint, Enumeration, Front, MOST_CYCLES, MOST_ISLANDS, MemberRecord, Problem, Run,
-    Search, TracePoint,
+    Checkpoint, Enumeration, Front, MOST_CYCLES, MOST_ISLANDS, MemberRecord, Problem, Run, Search,
+    Timetable,
 };
-use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
-use std::io::IsTerminal;
 use std::path::{Path, PathBuf};
-use std::sync::Arc;
-use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::{Duration, Instant};
 
 /// Search formulas for a dataset: a front of error against GPU cycles
 ///
 /// Ends with the front as a table, published formulas beside it, and a function to paste.
-/// Ctrl-C stops early and keeps everything.
+/// Ctrl-C stops early and keeps everything; once more, what follows the search, too.
 #[derive(clap::Args)]
 pub struct Args {
     /// A dataset, as `lgp generate` and `lgp import` write them; --resume with --out needs none
@@ -35,7 +35,7 @@ pub struct Args {
     /// [default: gcn]
     #[arg(long, value_name = "P")]
     pub(super) gpu: Option<String>,
-    /// How long to search, as in 60s, 10m [default: until little
+    /// How long it may take until all is written, as in 60s, 10m [default: until little
     /// improves, 60s at most; unless --generations is given]
     #[arg(long, value_parser = duration::parse)]
     pub(super) time: Option<Duration>,
@@ -82,6 +82,9 @@ pub struct Args {
     /// Replace the run that is in the output folder
     #[arg(long, conflicts_with = "resume", requires = "out")]
     pub(super) force: bool,
+    /// Say on stderr how many seconds each phase took
+    #[arg(long)]
+    timings: bool,
 }
 
 fn budget(text: &str) -> Result<f64, String> {
@@ -94,47 +97,57 @@ fn budget(text: &str) -> Result<f64, String> {
 }
 
 pub fn run(args: &Args, common: &Common) -> Result<(), Failure> {
+    let mut timings = Timings::new();
+    let start = Instant::now();
     let plan = Plan::of(args, common)?;
     let Plan { subject, mut run, grammar, profile, guesses, folder, replaces, checkpoint } = plan;
     let dataset = &subject.dataset;
     let incumbents = subject.published(&run.dataset, &profile)?;
     let problem = Problem::new(dataset, &grammar, &profile, &run.settings);
-    let interrupted = watch_for_interrupts();
-    // One that was killed before its first generation begins once more.
-    let begun = checkpoint.filter(|checkpoint| checkpoint.search.generation() > 0);
-    let (mut search, mut partial, before) = match begun {
+    timings.note("reading");
+    let stop = watch_for_interrupts();
+    // One that was killed before its first candidate begins once more.
+    let begun = checkpoint.filter(|checkpoint| checkpoint.search.counts().considered > 0);
+    let before = if begun.is_some() { run.seconds } else { 0.0 };
+    let time = time_of(&run.budget).map(|time| Duration::from_secs_f64((time - before).max(0.0)));
+    let rows = subject.whole.search.rows() + subject.whole.validation.rows();
+    let mut times = Timetable::new(start, time, rows, &stop);
+    let (mut search, mut partial) = match begun {
         Some(Checkpoint { search, trace, census, .. }) => {
-            (search, PartialRun::resumed(folder, trace, census), run.seconds)
+            (search, PartialRun::resumed(folder, trace, census))
         }
         None => {
-            let (start, mut search) = (Instant::now(), Search::new(run.settings.clone()));
+            let mut search = Search::new(run.settings.clone());
             let mut partial = PartialRun::new(folder, replaces);
             run = so_far(&run, &search, 0.0);
             partial.checkpoint_or_warn(&run, &search);
-            enumerate(&mut search, &problem, run.exhaustive)?;
-            search.settle(&guesses, &problem);
-            (search, partial, start.elapsed().as_secs_f64())
+            enumerate(&mut search, &problem, run.exhaustive, &times.starting())?;
+            search.settle_until(&guesses, &problem, &times.search());
+            timings.note("start");
+            (search, partial)
         }
     };
     let budget = run.budget;
     let seconds =
-        evolve(&budget, common, &mut search, &problem, before, &interrupted, |point, search| {
+        evolve(&budget, common, &mut search, &problem, before, &mut times, |point, search| {
             let seconds = point.seconds;
             partial.record(point, search, &problem, || so_far(&run, search, seconds));
         });
     run = so_far(&run, &search, seconds);
-    let front = Front::of(&search, &problem);
-    let minimax = match front.measure {
-        Measure::Max => front.clone(),
-        _ => Front::in_measure(&search, &problem, Measure::Max),
-    };
+    timings.note("search");
+    let (front, minimax) = finish::fronts(&search, &problem, &mut times, &mut timings, common);
     let written = partial.finish(&run, &front, &minimax, &incumbents, &search);
     // Whatever became of the files, what was found is shown.
     show(common, &run, &front, &incumbents, partial.folder())?;
     written?;
-    report::write(partial.folder(), common)?;
+    timings.note("files");
+    report::write(partial.folder(), common, &times.writing())?;
+    timings.note("page and pictures");
     say_where(common, &run, partial.folder());
-    if interrupted.load(Ordering::Relaxed) {
+    if args.timings {
+        eprintln!("{timings}");
+    }
+    if stop.requests() > 0 {
         let done = format!(
             "interrupted after {seconds:.1} s; {} is whole, and --resume goes on with it",
             partial.folder().display()
@@ -163,12 +176,17 @@ fn so_far(run: &Run, search: &Search, seconds: f64) -> Run {
 /// With `--exhaustive`, so many structures at most: a few minutes.
 const MOST_ENUMERATED: usize = 200_000;
 
-fn enumerate(search: &mut Search, problem: &Problem, asked: Option<f64>) -> Result<(), Failure> {
+fn enumerate(
+    search: &mut Search,
+    problem: &Problem,
+    asked: Option<f64>,
+    deadline: &Deadline,
+) -> Result<(), Failure> {
     let (cost, most) = asked.map_or(Enumeration::USUAL, |cost| (cost, MOST_ENUMERATED));
-    search.enumerate(problem, cost, most);
-    if asked.is_some() && search.enumeration().is_none() {
+    search.enumerate_until(problem, cost, most, deadline);
+    if asked.is_some() && search.enumeration().is_none() && !deadline.is_past() {
         let message = format!(
-            "--exhaustive: more than {MOST_ENUMERATED} formulas cost at most {cost} cycles; ask for fewer cycles"
+            "--exhaustive: there are too many formulas of at most {cost} cycles to try all (more than {MOST_ENUMERATED}, or of too many inputs); ask for fewer cycles"
         );
         return Err(Failure::usage(message));
     }
@@ -180,20 +198,23 @@ fn share(text: &str) -> Result<f64, String> {
     share.ok_or_else(|| "a share is from 0 to 1".into())
 }
 
+/// Once for the search, once for what follows it; then nothing is waited for.
+const REQUESTS: usize = 2;
+
 /// Ctrl-C, and what asks a process to end, SIGTERM and SIGHUP, stop the search.
-fn watch_for_interrupts() -> Arc<AtomicBool> {
-    let interrupted = Arc::new(AtomicBool::new(false));
+fn watch_for_interrupts() -> Stop {
+    let stop = Stop::default();
     if hangups_are_ignored() {
-        return interrupted;
+        return stop;
     }
-    let seen = Arc::clone(&interrupted);
+    let seen = stop.clone();
     // Without a handler Ctrl-C ends the process, and the last checkpoint stands.
     let _ = ctrlc::set_handler(move || {
-        if seen.swap(true, Ordering::Relaxed) {
+        if seen.request() > REQUESTS {
             std::process::exit(Exit::Interrupted as i32);
         }
     });
-    interrupted
+    stop
 }
 
 /// Whether the process is to outlive its terminal, as under `nohup`: a handler would undo that.
@@ -202,97 +223,6 @@ fn hangups_are_ignored() -> bool {
     let ignored = status.lines().find_map(|line| line.strip_prefix("SigIgn:"));
     let mask = ignored.and_then(|mask| u64::from_str_radix(mask.trim(), 16).ok());
     mask.is_some_and(|mask| mask & 1 == 1)
-}
-
-/// Runs generations until the budget is spent; gives the seconds of the whole run.
-fn evolve(
-    budget: &Budget,
-    common: &Common,
-    search: &mut Search,
-    problem: &Problem,
-    before: f64,
-    interrupted: &AtomicBool,
-    mut record: impl FnMut(TracePoint, &Search),
-) -> f64 {
-    let time = budget.seconds.or(budget.generations.is_none().then_some(USUAL_SECONDS));
-    let mut progress_made = (*budget == Budget::default()).then(Improvement::default);
-    let bar = live_front(common);
-    let start = Instant::now();
-    let seconds = || before + start.elapsed().as_secs_f64();
-    loop {
-        let spent = time.is_some_and(|time| seconds() >= time);
-        let done = budget.generations.is_some_and(|n| search.generation() >= n);
-        if spent || done || interrupted.load(Ordering::Relaxed) {
-            break;
-        }
-        search.advance(problem);
-        let point = search.trace_point(problem, seconds());
-        let progress = match (time, budget.generations) {
-            (_, Some(n)) => search.generation() as f64 / n.max(1) as f64,
-            (Some(time), None) => point.seconds / time.max(1e-3),
-            (None, None) => 0.0,
-        };
-        show_progress(&bar, &point, search.settings().measure, progress);
-        let stalled = progress_made.as_mut().is_some_and(|improvement| improvement.stalled(&point));
-        record(point, search);
-        if stalled {
-            break;
-        }
-    }
-    bar.finish_and_clear();
-    seconds()
-}
-
-/// Without a budget, at most.
-const USUAL_SECONDS: f64 = 60.0;
-
-/// When a search without a budget last became better.
-#[derive(Default)]
-struct Improvement {
-    hypervolume: f64,
-    seconds: f64,
-}
-
-impl Improvement {
-    /// A hypervolume larger by this share is an improvement.
-    const ENOUGH: f64 = 1e-3;
-
-    /// Whether nothing has improved for long: ten seconds, and a third of the time.
-    fn stalled(&mut self, point: &TracePoint) -> bool {
-        if point.hypervolume > self.hypervolume * (1.0 + Improvement::ENOUGH) {
-            *self = Improvement { hypervolume: point.hypervolume, seconds: point.seconds };
-        }
-        point.seconds - self.seconds > (point.seconds / 3.0).max(10.0)
-    }
-}
-
-fn live_front(common: &Common) -> ProgressBar {
-    if common.quiet || !std::io::stderr().is_terminal() {
-        return ProgressBar::with_draw_target(None, ProgressDrawTarget::hidden());
-    }
-    let style = ProgressStyle::with_template("{msg}\n{wide_bar} {percent}%");
-    ProgressBar::new(1000).with_style(style.unwrap_or_else(|_| ProgressStyle::default_bar()))
-}
-
-fn show_progress(bar: &ProgressBar, point: &TracePoint, measure: Measure, progress: f64) {
-    if bar.is_hidden() {
-        return;
-    }
-    let row = |label: &str, cells: Vec<String>| {
-        let cells: String = cells.iter().map(|cell| format!("{cell:>9}")).collect();
-        format!("{label:<7}{cells}")
-    };
-    let costs = crate::search::TRACE_COSTS.iter().map(|cost| format!("≤ {cost}")).collect();
-    let errors = point.errors.iter().map(|error| format!("{error:.5}")).collect();
-    bar.set_message(format!(
-        "{:.0} s, {} candidates considered, {} fitted\n{}\n{}",
-        point.seconds,
-        point.counts.considered,
-        point.counts.fitted,
-        row("cycles", costs),
-        row(title(measure), errors)
-    ));
-    bar.set_position((progress.min(1.0) * 1000.0) as u64);
 }
 
 fn show(

@@ -1,6 +1,7 @@
 //! Levenberg–Marquardt (Marquardt 1963, with his scaling by the diagonal).
 
 use super::Differentiated;
+use crate::deadline::Deadline;
 use crate::eval::{Evaluator, NormalEquations, Samples, Tape};
 use crate::program::Draft;
 
@@ -16,6 +17,8 @@ pub struct Stop {
 #[derive(Clone, Debug, Default)]
 pub struct Fitter {
     pub evaluator: Evaluator,
+    /// Where fits on many samples end, with what they have by then.
+    pub deadline: Deadline,
     pub(super) derivative: Differentiated,
     pub(super) tape: Tape,
     current: NormalEquations,
@@ -30,7 +33,15 @@ pub struct Fitter {
 /// Damping beyond which no step is tried any more.
 const MAX_DAMPING: f64 = 1e8;
 
+/// From so many samples on a fit may be cut.
+const MANY_SAMPLES: usize = 1024;
+
 impl Fitter {
+    /// One whose fits on many samples end at a deadline.
+    pub fn until(deadline: &Deadline) -> Fitter {
+        Fitter { deadline: deadline.clone(), ..Fitter::default() }
+    }
+
     /// Fits every constant of effective code to the samples by least squares, starting from
     /// the values that it has, and gives the weighted sum of squared errors over all outputs. The
     /// result is not finite, and the constants are as they were, if the program's outputs or
@@ -65,6 +76,9 @@ impl Fitter {
             return self.current.sum_of_squares;
         }
         for _ in 0..stop.max_steps {
+            if self.is_cut(samples) {
+                break;
+            }
             match self.step(program.consts.len(), samples) {
                 Some(gain) if gain >= stop.min_gain => {}
                 _ => break,
@@ -73,6 +87,11 @@ impl Fitter {
         let fitted = &self.constants[..program.consts.len()];
         program.consts.copy_from_slice(fitted);
         self.current.sum_of_squares
+    }
+
+    /// Whether there is no time left; of few samples a fit takes hardly longer than to look at the clock.
+    pub(super) fn is_cut(&self, samples: &Samples) -> bool {
+        samples.rows() >= MANY_SAMPLES && self.deadline.is_past()
     }
 
     /// One accepted step, with as much damping as it takes; the share by which it lowers
@@ -90,6 +109,9 @@ impl Fitter {
                     self.damping = (self.damping * 0.1).max(1e-9);
                     return Some((old - new) / old);
                 }
+            }
+            if self.is_cut(samples) {
+                return None;
             }
             self.damping *= 8.0;
         }

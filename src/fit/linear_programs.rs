@@ -107,7 +107,8 @@ pub(super) fn by_linear_programs(
     let mut linear = Linearised::default();
     let mut stale = true;
     for _ in 0..most {
-        if !best.is_finite() || best == 0.0 || radius < LEAST_RADIUS {
+        let done = !best.is_finite() || best == 0.0 || radius < LEAST_RADIUS;
+        if done || fitter.is_cut(samples) {
             break;
         }
         if stale {

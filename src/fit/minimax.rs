@@ -72,7 +72,7 @@ fn by_weights(
     let (mut mean, mut best) = errors(fitter, &trial, samples, &mut values);
     for _ in 0..rounds.most {
         let hopeless = best > rounds.wanted * FAR || !mean.is_finite();
-        if hopeless || best == 0.0 || program.consts.is_empty() {
+        if hopeless || fitter.is_cut(samples) || best == 0.0 || program.consts.is_empty() {
             break;
         }
         for (output, weights) in weights.iter_mut().enumerate() {
@@ -119,6 +119,9 @@ pub fn shorten_minimax(
     for constant in 0..program.consts.len() {
         let exact = program.consts[constant];
         for digits in 0..=MOST_DIGITS {
+            if fitter.is_cut(samples) {
+                return errors(fitter, program, samples, &mut Values::default()).1;
+            }
             program.consts[constant] = rounded(exact, digits);
             if comparison.error(fitter, program) <= limit {
                 break;

@@ -37,6 +37,9 @@ pub fn shorten_free(
     let mut trial = program.clone();
     for constant in (0..program.consts.len()).filter(|&constant| is_free(constant)) {
         for digits in 0..=MOST_DIGITS {
+            if fitter.is_cut(samples) {
+                return loss;
+            }
             trial.copy_from(program);
             trial.consts[constant] = rounded(program.consts[constant], digits);
             // What is nearly 0 needs nothing to make up for it.

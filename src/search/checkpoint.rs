@@ -1,7 +1,7 @@
 //! `checkpoint.bin`: all that a search goes on with, in one file, so that no two of its parts can be of
 //! different moments.
 //!
-//! A line of text says which program wrote it, as `LGPSTATE4 lgp 0.1.0`; then come the parts, in
+//! A line of text says which program wrote it, as `LGPSTATE5 lgp 0.1.0`; then come the parts, in
 //! postcard's encoding, and a checksum over all before it. The encoding does not describe itself, and
 //! random streams and rules of a search may change from version to version: a checkpoint is read by the
 //! version that wrote it, and by [`LAYOUT`] alone.
@@ -13,7 +13,7 @@ use serde::{Deserialize, Serialize};
 use std::path::Path;
 
 /// To be raised whenever what is serialised of a search changes: `tests/checkpoint.rs` tells.
-const LAYOUT: u32 = 4;
+const LAYOUT: u32 = 5;
 
 const MAGIC: &str = "LGPSTATE";
 

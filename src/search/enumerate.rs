@@ -6,10 +6,11 @@
 //! absolute up to local minima of the fits, and up to what simplification makes unreachable by single
 //! insertions.
 
-use super::vary::{insertions, random_constant};
+use super::vary::{insertion_count, insertions, random_constant};
 use super::{Problem, Search, near_the_least};
 use crate::archive::Member;
 use crate::cost::CostScratch;
+use crate::deadline::Deadline;
 use crate::fit::{Fitter, Measure, Rounds, Stop, minimax};
 use crate::program::{Arg, Constants, Draft, structural_hash};
 use crate::simplify::Simplifier;
@@ -45,15 +46,28 @@ impl Search {
     /// Takes in all programs of at most `cost` cycles, as far as the budget goes, fitted; nothing where
     /// they differ in more than `most` structures.
     pub fn enumerate(&mut self, problem: &Problem, cost: f64, most: usize) {
+        self.enumerate_until(problem, cost, most, &Deadline::NEVER);
+    }
+
+    /// [`Search::enumerate`], cut at a deadline: what was fitted by then is kept, and counts as any start, not
+    /// as all programs.
+    pub fn enumerate_until(
+        &mut self,
+        problem: &Problem,
+        cost: f64,
+        most: usize,
+        deadline: &Deadline,
+    ) {
         let cost = cost.min(self.settings.max_cost);
-        let Some(structures) = structures(problem, cost, most) else { return };
-        let members = best_of(&structures, problem);
+        let Some(structures) = structures(problem, cost, most, deadline) else { return };
+        let members = best_of(&structures, problem, deadline);
         let drafts: Vec<Draft> = members.iter().map(|member| member.draft.clone()).collect();
         for member in members {
             self.archive.offer(member);
         }
-        self.settle_searched(&drafts, problem);
-        self.enumeration = Some(Enumeration { cost, structures: structures.len() });
+        let is_whole = !deadline.is_past();
+        self.settle_searched(&drafts, problem, deadline);
+        self.enumeration = is_whole.then_some(Enumeration { cost, structures: structures.len() });
     }
 
     /// What was enumerated before the first generation.
@@ -63,14 +77,20 @@ impl Search {
 }
 
 /// The structures that come near the least error at their cost, fitted on all samples.
-fn best_of(structures: &[Draft], problem: &Problem) -> Vec<Member> {
+fn best_of(structures: &[Draft], problem: &Problem, deadline: &Deadline) -> Vec<Member> {
+    let new_fitter = || Fitter::until(&deadline.moment_alone());
     let fitted: Vec<Option<Member>> = structures
         .par_iter()
-        .map_init(Fitter::default, |fitter, draft| fitted(fitter, draft, problem))
+        .map_init(Fitter::default, |fitter, draft| {
+            if deadline.is_past() { None } else { fitted(fitter, draft, problem) }
+        })
         .collect();
     let fitted: Vec<Member> = fitted.into_iter().flatten().collect();
     let near = near_the_least(fitted, NEAR, |member| (member.cost, member.loss));
     let finish = |fitter: &mut Fitter, mut member: Member| {
+        if deadline.is_past() {
+            return None;
+        }
         member.loss = fitter.fit(&mut member.draft, &problem.all, ON_ALL) * problem.scale();
         if problem.measure == Measure::Max {
             let rounds = Rounds::TO_CONVERGENCE;
@@ -79,24 +99,43 @@ fn best_of(structures: &[Draft], problem: &Problem) -> Vec<Member> {
         member.loss = problem.archive_loss(&member.draft, member.loss, &mut fitter.evaluator);
         Some(member).filter(|member| problem.accepts(&member.draft))
     };
-    near.into_par_iter().map_init(Fitter::default, finish).flatten().collect()
+    near.into_par_iter().map_init(new_fitter, finish).flatten().collect()
 }
 
 /// Drafts that are grown together.
 const PARENTS: usize = 1024;
 
-/// Every structure, or nothing where there are more than `most`.
-fn structures(problem: &Problem, cost: f64, most: usize) -> Option<Vec<Draft>> {
+/// Children that are looked at, at most, for each structure that may be found: with many inputs nearly all
+/// are too dear.
+const CHILDREN: usize = 600;
+
+/// Every structure, or nothing where there are more than `most`, or no time to find out.
+fn structures(
+    problem: &Problem,
+    cost: f64,
+    most: usize,
+    deadline: &Deadline,
+) -> Option<Vec<Draft>> {
     let mut known = HashSet::new();
     let mut all: Vec<Draft> = Vec::new();
-    let mut latest = leaves(problem.all.inputs(), problem.all.outputs());
+    let mut children = most.saturating_mul(CHILDREN);
+    let mut latest = leaves(problem.all.inputs(), problem.all.outputs(), most)?;
     latest.retain(|draft| known.insert(hash(draft)));
     while !latest.is_empty() {
         let mut next = Vec::new();
         // Of many a parent the children are known already: they are not kept for long.
         for parents in latest.chunks(PARENTS) {
-            let grown: Vec<Vec<(u64, Draft)>> =
-                parents.par_iter().map(|draft| grown(draft, problem, cost)).collect();
+            let count: usize =
+                parents.iter().map(|draft| insertion_count(draft, problem.grammar)).sum();
+            children = children.checked_sub(count)?;
+            let grow = |draft| {
+                let growth = (!deadline.is_past()).then(|| grown(draft, problem, cost));
+                growth.unwrap_or_default()
+            };
+            let grown: Vec<Vec<(u64, Draft)>> = parents.par_iter().map(grow).collect();
+            if deadline.is_past() {
+                return None;
+            }
             let new = grown.into_iter().flatten().filter(|(hash, _)| known.insert(*hash));
             next.extend(new.map(|(_, draft)| draft));
             if known.len() > most {
@@ -113,8 +152,12 @@ fn hash(draft: &Draft) -> u64 {
     structural_hash(draft, Constants::Ignored, &mut Vec::new())
 }
 
-/// Every choice of an input or a constant for each output.
-fn leaves(inputs: usize, outputs: usize) -> Vec<Draft> {
+/// Every choice of an input or a constant for each output; nothing where there are more than `most`.
+fn leaves(inputs: usize, outputs: usize, most: usize) -> Option<Vec<Draft>> {
+    let count = (inputs + 1).checked_pow(outputs as u32);
+    if count.is_none_or(|count| count > most) {
+        return None;
+    }
     let mut drafts = vec![Draft { inputs, ..Draft::default() }];
     for _ in 0..outputs {
         let with = |draft: &Draft, input: Option<usize>| {
@@ -131,7 +174,7 @@ fn leaves(inputs: usize, outputs: usize) -> Vec<Draft> {
             .flat_map(|draft| (0..inputs).map(Some).chain([None]).map(move |i| with(draft, i)))
             .collect();
     }
-    drafts
+    Some(drafts)
 }
 
 /// What one more instruction makes of a draft, each structure once.
@@ -208,7 +251,7 @@ mod tests {
         let problem = Problem::new(&data, &grammar, &gpu, &settings);
         let names = Names::new(["x"], ["y"]);
         let found: HashSet<u64> =
-            structures(&problem, 1.0, 1000).unwrap().iter().map(hash).collect();
+            structures(&problem, 1.0, 1000, &Deadline::NEVER).unwrap().iter().map(hash).collect();
         let by_hand = [
             "y = x",
             "y = 2",
@@ -228,12 +271,12 @@ mod tests {
             Simplifier::default().simplify(&draft, &mut simple);
             assert!(found.contains(&hash(&simple)), "{text} is missing");
         }
-        let all = structures(&problem, 1.0, 1000).unwrap();
+        let all = structures(&problem, 1.0, 1000, &Deadline::NEVER).unwrap();
         for draft in &all {
             let cost = problem.cost(draft, &mut CostScratch::default());
             assert!(cost <= 1.0, "{}", print(&Program::verify(draft.clone()).unwrap(), &names));
         }
-        assert_eq!(structures(&problem, 1.0, all.len() - 1), None);
+        assert_eq!(structures(&problem, 1.0, all.len() - 1, &Deadline::NEVER), None);
         let mut search = Search::new(settings.clone());
         search.enumerate(&problem, 1.0, all.len());
         assert!(search.archive().best_loss(1.0) < 1e-12);

@@ -1,13 +1,11 @@
 //! The front: what a search leaves behind.
 
-use super::polish::{polish, promising};
-use super::rounding::beyond_rounding;
-use super::{Problem, Search};
+use super::{Problem, Search, Work};
 use crate::cost::{Cost, Profile};
 use crate::dataset::Dataset;
 use crate::eval::{Evaluator, OutputError, Score};
 use crate::fit::Measure;
-use crate::program::{Draft, Names, Program, parse, print};
+use crate::program::{Names, Program, parse, print};
 use crate::simplify::folded;
 use crate::stability::{Limits, Questions, Rounding, Stopped, Verdict, VerdictRecord};
 use rayon::prelude::*;
@@ -109,22 +107,12 @@ impl Front {
     /// [`Front::of`], polished and judged by any measure. For the maximum error, which other searches find
     /// only by way of theirs, the islands' best compete as well.
     pub fn in_measure(search: &Search, problem: &Problem, measure: Measure) -> Front {
-        let names = problem.dataset.names();
-        let samples = problem.all_in(measure);
-        let archive = search.archive().members().iter().map(|member| &member.draft);
-        let mut drafts: Vec<Draft> = archive.cloned().collect();
-        if measure == Measure::Max {
-            drafts.extend(search.contenders().into_iter().cloned());
-            drafts = promising(drafts, problem, &samples);
-        }
-        // What is brought into its range by polishing may have become too dear.
-        let polished = drafts
-            .par_iter()
-            .filter_map(|draft| polish(draft, problem, &samples, &names, measure))
-            .filter(|member| member.cost <= search.settings().max_cost);
-        let members = beyond_rounding(polished.collect(), problem, measure);
-        let mut front = Front::from_members(members, measure);
-        front.judge(&problem.questions(), &names);
+        let work = &Work::TO_THE_END;
+        let mut front = match measure == problem.measure {
+            true => Front::polished(search, problem, work),
+            false => Front::polished_in(search, problem, measure, &Front::default(), work),
+        };
+        front.judge(&problem.questions(), &problem.dataset.names());
         front
     }
 

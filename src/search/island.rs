@@ -5,6 +5,7 @@ use super::vary::{Rates, Variation, random_draft};
 use super::{Counts, Fate, Problem, Settings};
 use crate::archive::{Archive, Member};
 use crate::cost::CostScratch;
+use crate::deadline::Deadline;
 use crate::eval::Samples;
 use crate::fit::{Fitter, Measure, Rounds, Stop, minimax};
 use crate::op::Op;
@@ -43,7 +44,8 @@ const SUBSET_TOLERANCE: f64 = 1.15;
 /// What sets islands apart.
 struct Way {
     /// Of the cost budget. A cheap formula is soon as good as it gets where nothing dearer competes;
-    /// from there it migrates to islands that may spend more.
+    /// from there it migrates to islands that may spend more. Half of the islands spend less than half: most
+    /// formulas that are used are cheap.
     share: f64,
     /// Individuals compete within their family only.
     by_family: bool,
@@ -57,7 +59,7 @@ const WAYS: [Way; 8] = [
     Way { share: 0.3, by_family: true, by_maximum: false },
     Way { share: 0.6, by_family: false, by_maximum: true },
     Way { share: 0.2, by_family: true, by_maximum: false },
-    Way { share: 1.0, by_family: false, by_maximum: false },
+    Way { share: 0.35, by_family: false, by_maximum: false },
     Way { share: 0.4, by_family: true, by_maximum: false },
     Way { share: 1.0, by_family: false, by_maximum: true },
     Way { share: 0.8, by_family: true, by_maximum: false },
@@ -80,8 +82,19 @@ pub(super) struct Island {
     rates: Rates,
     /// Hashes of structures, the low bits counting tries.
     seen: Vec<u32>,
+    under_way: Option<UnderWay>,
     #[serde(skip)]
     workshop: Workshop,
+}
+
+/// How far an island is in a generation that it has begun: it goes on as if never stopped.
+#[derive(Clone, Debug, Serialize, Deserialize)]
+struct UnderWay {
+    considered: usize,
+    /// Of the random stream.
+    word: u128,
+    /// As the generation began.
+    rates: Rates,
 }
 
 /// The memory in which candidates are made; no state between candidates.
@@ -110,6 +123,7 @@ impl Island {
             by_maximum: by_maximum && settings.measure == Measure::Max,
             rates: Rates::default(),
             seen: vec![0; MEMORY],
+            under_way: None,
             workshop: Workshop::default(),
         }
     }
@@ -120,16 +134,33 @@ impl Island {
             return Err("it is not as its settings make it".into());
         }
         self.rates.check()?;
+        if let Some(under_way) = &self.under_way {
+            under_way.rates.check()?;
+        }
         self.archive.check(inputs, outputs)?;
         self.population.check(&new.population, inputs, outputs)
     }
 
-    /// One generation, on a random stream of its own.
-    pub fn generation(&mut self, problem: &Problem, settings: &Settings, stream: u64) {
+    /// Goes on with a generation, on a random stream of its own, until it is done or the deadline is past;
+    /// says which.
+    pub fn generation(
+        &mut self,
+        problem: &Problem,
+        settings: &Settings,
+        stream: u64,
+        deadline: &Deadline,
+    ) -> bool {
         let mut rng = ChaCha8Rng::seed_from_u64(settings.seed);
         rng.set_stream(stream);
-        self.workshop.variation.follow(&self.rates);
-        for _ in 0..self.candidates(settings) {
+        let begun = self.under_way.take();
+        let mut under_way =
+            begun.unwrap_or_else(|| UnderWay { considered: 0, word: 0, rates: self.rates.clone() });
+        rng.set_word_pos(under_way.word);
+        let candidates = self.candidates(settings);
+        let was_done = under_way.considered >= candidates;
+        self.workshop.variation.follow(&under_way.rates);
+        self.workshop.fitter.deadline = deadline.moment_alone();
+        while under_way.considered < candidates && !deadline.is_past() {
             let made_by = self.conceive(&mut rng, problem, settings.immigrants);
             for (output, transform) in problem.transforms() {
                 transform.undo(&mut self.workshop.child, output);
@@ -139,8 +170,20 @@ impl Island {
             if self.counts.fitted > fitted {
                 self.rates.note(made_by, self.counts.admitted > admitted);
             }
+            under_way.considered += 1;
         }
-        self.rates.fade();
+        under_way.word = rng.get_word_pos();
+        let is_done = under_way.considered >= candidates;
+        if is_done && !was_done {
+            self.rates.fade();
+        }
+        self.under_way = Some(under_way);
+        is_done
+    }
+
+    /// The next call of [`Island::generation`] begins one.
+    pub fn end_generation(&mut self) {
+        self.under_way = None;
     }
 
     /// A fit takes a time that grows with instructions times constants, so about with the square of the
@@ -252,9 +295,25 @@ impl Island {
         }
     }
 
+    /// Takes drafts from elsewhere into the population, as many as the deadline leaves time for.
+    pub fn settle_all<'a>(
+        &mut self,
+        drafts: impl IntoIterator<Item = &'a Draft>,
+        problem: &Problem,
+        deadline: &Deadline,
+    ) {
+        self.workshop.fitter.deadline = deadline.moment_alone();
+        for draft in drafts {
+            if deadline.is_past() {
+                return;
+            }
+            self.settle(draft, problem);
+        }
+    }
+
     /// Takes a draft from elsewhere into the population, fitted; equal constants in it are fitted
     /// apart.
-    pub fn settle(&mut self, draft: &Draft, problem: &Problem) {
+    fn settle(&mut self, draft: &Draft, problem: &Problem) {
         let child = &mut self.workshop.child;
         child.copy_from(draft);
         child.consts.clear();

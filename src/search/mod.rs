@@ -12,6 +12,7 @@
 mod census;
 mod checkpoint;
 mod enumerate;
+mod finish;
 mod folder;
 mod front;
 mod island;
@@ -23,12 +24,14 @@ mod record;
 mod require;
 mod rounding;
 mod scales;
+mod timetable;
 mod transform;
 mod vary;
 
 pub use census::{Census, Recurring};
 pub use checkpoint::Checkpoint;
 pub use enumerate::Enumeration;
+pub use finish::{Rehearsal, Work};
 pub use folder::{
     CENSUS, CHECKPOINT, FRONT, Holding, MINIMAX_FRONT, RunFolder, TRACE, in_the_way, load_front,
     load_run, load_text,
@@ -38,11 +41,13 @@ pub use loaded::{MOST_CYCLES, MOST_ISLANDS};
 pub use merge::{Incompatible, merge};
 pub use record::{Budget, MemberRecord, RecordError, Run, TRACE_COSTS, TracePoint, trace_csv};
 pub use require::Requirement;
+pub use timetable::Timetable;
 pub use transform::Transform;
 
 use crate::archive::Archive;
 use crate::cost::{CostScratch, Profile};
 use crate::dataset::{Dataset, Split, joint_unit, output_units};
+use crate::deadline::Deadline;
 use crate::eval::{Evaluator, Samples, Tape};
 use crate::fit::Measure;
 use crate::grammar::Grammar;
@@ -56,6 +61,7 @@ use scales::Scales;
 use serde::{Deserialize, Serialize};
 use std::borrow::Cow;
 use std::collections::HashSet;
+use std::time::Duration;
 
 /// What decides the course of a search, given its problem.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -328,6 +334,10 @@ fn near_the_least<T>(
     all
 }
 
+/// For so long an island goes on before others have their turn: where a generation lasts long, none waits
+/// until there is no time left.
+const TURN: Duration = Duration::from_millis(100);
+
 /// In mean square, how much worse than the archive's a contender may be.
 const CONTENDING: f64 = 4.0;
 
@@ -466,18 +476,38 @@ impl Search {
         counts
     }
 
-    /// One generation of every island, in parallel on the current thread pool.
+    /// One generation of every island, in parallel on the current thread pool; the rest of one that
+    /// was cut.
     pub fn advance(&mut self, problem: &Problem) {
+        self.advance_until(problem, &Deadline::NEVER);
+    }
+
+    /// [`Search::advance`], cut at a deadline: what was found by then is kept, and the next call goes on
+    /// where this one stopped, as if nothing had been. Says whether the generation is done. (Fits on many
+    /// samples that a moment cuts are not done again; pauses and requests to stop cut none.)
+    pub fn advance_until(&mut self, problem: &Problem, deadline: &Deadline) -> bool {
         let (settings, generation) = (&self.settings, self.generation);
-        self.islands.par_iter_mut().enumerate().for_each(|(i, island)| {
-            island.generation(problem, settings, generation * settings.islands as u64 + i as u64);
-        });
+        loop {
+            let done = self.islands.par_iter_mut().enumerate().map(|(i, island)| {
+                let stream = generation * settings.islands as u64 + i as u64;
+                island.generation(problem, settings, stream, &deadline.pausing_in(TURN))
+            });
+            if done.reduce(|| true, |a, b| a && b) {
+                break;
+            }
+            if deadline.is_past() {
+                self.islands.iter().for_each(|island| self.archive.merge(&island.archive));
+                return false;
+            }
+        }
+        self.islands.iter_mut().for_each(Island::end_generation);
         self.generation += 1;
-        self.barrier(problem);
+        self.barrier(problem, &deadline.moment_alone());
+        true
     }
 
     /// What islands learn of each other.
-    fn barrier(&mut self, problem: &Problem) {
+    fn barrier(&mut self, problem: &Problem, deadline: &Deadline) {
         for island in &self.islands {
             self.archive.merge(&island.archive);
         }
@@ -485,12 +515,12 @@ impl Search {
             island.archive.clone_from(&self.archive);
         }
         if self.generation.is_multiple_of(self.settings.migration_interval) {
-            self.migrate(problem);
+            self.migrate(problem, deadline);
         }
     }
 
     /// Each island's best go on to the next. Where that goes by another error, as drafts.
-    fn migrate(&mut self, problem: &Problem) {
+    fn migrate(&mut self, problem: &Problem, deadline: &Deadline) {
         let elites =
             |island: &Island| (island.by_maximum, island.population.elites().cloned().collect());
         let mut arriving: Vec<(bool, Vec<Individual>)> = self.islands.iter().map(elites).collect();
@@ -498,23 +528,27 @@ impl Search {
         self.islands.par_iter_mut().zip(arriving).for_each(|(island, (by_maximum, migrants))| {
             match by_maximum == island.by_maximum {
                 true => island.welcome(migrants),
-                false => migrants.iter().for_each(|one| island.settle(&one.draft, problem)),
+                false => {
+                    island.settle_all(migrants.iter().map(|one| &one.draft), problem, deadline)
+                }
             }
         });
     }
 
     /// Starts every island with drafts from elsewhere, over the dataset's columns.
     pub fn settle(&mut self, drafts: &[Draft], problem: &Problem) {
-        let drafts: Vec<Draft> = drafts.iter().map(|draft| problem.over_searched(draft)).collect();
-        self.settle_searched(&drafts, problem);
+        self.settle_until(drafts, problem, &Deadline::NEVER);
     }
 
-    fn settle_searched(&mut self, drafts: &[Draft], problem: &Problem) {
-        for island in &mut self.islands {
-            for draft in drafts {
-                island.settle(draft, problem);
-            }
-        }
-        self.barrier(problem);
+    /// [`Search::settle`] of the first drafts, as many as the deadline leaves time for.
+    pub fn settle_until(&mut self, drafts: &[Draft], problem: &Problem, deadline: &Deadline) {
+        let drafts: Vec<Draft> = drafts.iter().map(|draft| problem.over_searched(draft)).collect();
+        self.settle_searched(&drafts, problem, deadline);
+    }
+
+    fn settle_searched(&mut self, drafts: &[Draft], problem: &Problem, deadline: &Deadline) {
+        let islands = self.islands.par_iter_mut();
+        islands.for_each(|island| island.settle_all(drafts, problem, deadline));
+        self.barrier(problem, deadline);
     }
 }

@@ -5,6 +5,7 @@ use super::rounding::Rounding;
 use super::{Problem, near_the_least};
 use crate::cost::CostScratch;
 use crate::dataset::Column;
+use crate::deadline::Deadline;
 use crate::eval::{Arithmetic, Bounds, Samples};
 use crate::fit::{
     Fitter, Measure, Rounds, Stop, drop_negligible, drop_negligible_minimax, minimax, shorten,
@@ -33,8 +34,9 @@ pub(super) fn polish(
     samples: &Samples,
     names: &Names,
     measure: Measure,
+    deadline: &Deadline,
 ) -> Option<FrontMember> {
-    let mut fitter = Fitter::default();
+    let mut fitter = Fitter::until(deadline);
     let mut fitted = draft.clone();
     let mut smaller;
     if measure == Measure::Max {
@@ -65,6 +67,16 @@ pub(super) fn polish(
             finished(&clamped, problem, names, measure)
         })
     })
+}
+
+/// The formula as the search left it, simplified; nothing where it is not finite on every sample or not as
+/// required.
+pub(super) fn as_found(draft: &Draft, problem: &Problem, names: &Names) -> Option<FrontMember> {
+    let mut simple = Draft::default();
+    Simplifier::default().simplify(&problem.natural(draft), &mut simple);
+    let program = effective(&Program::verify(simple).ok()?);
+    let member = FrontMember::new(program, problem.dataset, problem.profile, names);
+    (member.score.is_finite() && problem.shows(&member.program)).then_some(member)
 }
 
 /// The formula without what is superfluous and with guards, or as it is where that makes it worse or
@@ -134,10 +146,16 @@ fn guarded(draft: &Draft, problem: &Problem) -> Option<Draft> {
 }
 
 /// Of many drafts those that come near the least maximum error at their cost, by a quick look, and of
-/// those by a closer one.
-pub(super) fn promising(drafts: Vec<Draft>, problem: &Problem, samples: &Samples) -> Vec<Draft> {
-    let first = looked_at(drafts, problem, samples, FIRST_LOOK, 1.4);
-    looked_at(first, problem, samples, SECOND_LOOK, 1.1)
+/// those by a closer one; and whether the deadline left some out.
+pub(super) fn promising(
+    drafts: Vec<Draft>,
+    problem: &Problem,
+    samples: &Samples,
+    deadline: &Deadline,
+) -> (Vec<Draft>, bool) {
+    let first = looked_at(drafts, problem, samples, FIRST_LOOK, 1.4, deadline);
+    let second = looked_at(first, problem, samples, SECOND_LOOK, 1.1, deadline);
+    (second, deadline.is_past())
 }
 
 const FIRST_LOOK: Rounds = Rounds {
@@ -155,16 +173,21 @@ fn looked_at(
     samples: &Samples,
     look: Rounds,
     within: f64,
+    deadline: &Deadline,
 ) -> Vec<Draft> {
     let tried: Vec<(f64, f64, Draft)> = drafts
         .into_par_iter()
         .map_init(
-            || (Fitter::default(), CostScratch::default()),
+            || (Fitter::until(deadline), CostScratch::default()),
             |(fitter, scratch), mut draft| {
+                if deadline.is_past() {
+                    return None;
+                }
                 let error = minimax(fitter, &mut draft, samples, look);
-                (problem.cost(&draft, scratch), error, draft)
+                Some((problem.cost(&draft, scratch), error, draft))
             },
         )
+        .flatten()
         .collect();
     let near = near_the_least(tried, within, |(cost, error, _)| (*cost, *error));
     near.into_iter().map(|(_, _, draft)| draft).collect()

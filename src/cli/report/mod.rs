@@ -9,6 +9,7 @@ use super::run_folder::{self, Which};
 use super::subject::Subject;
 use super::{Common, Exit, Failure};
 use crate::dataset::{Dataset, replace_file};
+use crate::deadline::Deadline;
 use crate::report::page;
 use crate::report::table::Published;
 use crate::search::{Front, Run, RunFolder};
@@ -64,12 +65,13 @@ pub fn run(args: &Args, common: &Common) -> Result<(), Failure> {
             )));
         }
         [folder] => {
-            let gathered = gather(folder, args.dataset.as_deref(), common)?;
+            let mut gathered = gather(folder, args.dataset.as_deref(), common)?;
+            gathered.judge();
             let _owned = RunFolder::claim(folder)?;
             if args.measure {
                 timing::measure(&gathered, folder)?;
             }
-            (folder.join(FILE), write_all(&gathered, folder)?)
+            (folder.join(FILE), write_all(&gathered, folder, &Deadline::NEVER)?.0)
         }
         _ if args.measure || args.dataset.is_some() => {
             return Err(Failure::usage("--measure and --dataset are for the page of one run"));
@@ -84,18 +86,38 @@ pub fn run(args: &Args, common: &Common) -> Result<(), Failure> {
     common.summary(&Written { page, bytes }, &text)
 }
 
-/// Writes the page and the pictures of a run's folder.
-pub(super) fn write(folder: &Path, common: &Common) -> Result<(), Failure> {
-    write_all(&gather(folder, None, common)?, folder).map(drop)
+/// Writes the page and the pictures of a run's folder, its verdicts as they are; past the deadline no
+/// more pictures.
+pub(super) fn write(folder: &Path, common: &Common, deadline: &Deadline) -> Result<(), Failure> {
+    let (_, whole) = write_all(&gather(folder, None, common)?, folder, deadline)?;
+    if !whole && !common.quiet {
+        let folder = folder.display();
+        eprintln!("there was no time for all pictures; `lgp report {folder}` makes them");
+    }
+    Ok(())
 }
 
-/// Gives the bytes of the page.
-fn write_all(gathered: &Gathered, folder: &Path) -> Result<usize, Failure> {
+impl Gathered {
+    /// As `lgp emit` does, so that its code and the page's are the same.
+    fn judge(&mut self) {
+        let questions = Questions::of(&self.run.inputs, &self.run.outputs);
+        for front in [&mut self.front, &mut self.minimax] {
+            front.judge(&questions, &self.run.names());
+        }
+    }
+}
+
+/// Gives the bytes of the page, and whether there was time for all pictures.
+fn write_all(
+    gathered: &Gathered,
+    folder: &Path,
+    deadline: &Deadline,
+) -> Result<(usize, bool), Failure> {
     let (page, trace) = content::page(gathered, folder)?;
     let html = page::html(&page);
-    pictures::write(gathered, trace.as_ref(), folder)?;
+    let whole = pictures::write(gathered, trace.as_ref(), folder, deadline)?;
     write_file(folder, FILE, html.as_bytes())?;
-    Ok(html.len())
+    Ok((html.len(), whole))
 }
 
 fn write_file(folder: &Path, name: &str, bytes: &[u8]) -> Result<(), Failure> {
@@ -104,13 +126,8 @@ fn write_file(folder: &Path, name: &str, bytes: &[u8]) -> Result<(), Failure> {
 }
 
 fn gather(folder: &Path, elsewhere: Option<&Path>, common: &Common) -> Result<Gathered, Failure> {
-    let (mut run, mut front) = run_folder::load(folder, Which { minimax: false })?;
-    let (_, mut minimax) = run_folder::load(folder, Which { minimax: true })?;
-    // As `lgp emit` does, so that its code and the page's are the same.
-    let questions = Questions::of(&run.inputs, &run.outputs);
-    for front in [&mut front, &mut minimax] {
-        front.judge(&questions, &run.names());
-    }
+    let (mut run, front) = run_folder::load(folder, Which { minimax: false })?;
+    let (_, minimax) = run_folder::load(folder, Which { minimax: true })?;
     let found = match elsewhere {
         Some(path) => {
             run.dataset = path.to_owned();

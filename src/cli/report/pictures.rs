@@ -4,6 +4,7 @@ use super::{Gathered, write_file};
 use crate::cli::render::{Drawing, ROUGHNESSES, SIZE};
 use crate::cli::{Exit, Failure, run_folder};
 use crate::dataset::Dataset;
+use crate::deadline::Deadline;
 use crate::eval::{Evaluator, Samples, Tape};
 use crate::program::Program;
 use crate::report::maps::{self, Maps, OutputMaps, Plane};
@@ -17,21 +18,30 @@ use std::path::Path;
 /// Pixels.
 const WIDTH: u32 = 1600;
 
+/// Says whether there was time for all.
 pub(super) fn write(
     gathered: &Gathered,
     trace: Option<&Trace>,
     folder: &Path,
-) -> Result<(), Failure> {
+    deadline: &Deadline,
+) -> Result<bool, Failure> {
     let Gathered { run, front, dataset, published, .. } = gathered;
     run_folder::write_plots(folder, run, front, published)?;
-    if let Some(trace) = trace.filter(|trace| trace.seconds.len() > 1) {
+    let shown = trace.filter(|trace| trace.seconds.len() > 1 && !deadline.is_past());
+    if let Some(trace) = shown {
         write_convergence(gathered, trace, folder)?;
     }
-    let (Some(dataset), Some(knee)) = (dataset, front.knee()) else { return Ok(()) };
+    let (Some(dataset), Some(knee)) = (dataset, front.knee()) else { return Ok(true) };
+    if deadline.is_past() {
+        return Ok(false);
+    }
     if let Some(maps) = maps(gathered, dataset, knee) {
         for (file, theme) in [("maps.png", Theme::Light), ("maps-dark.png", Theme::Dark)] {
             write_file(folder, file, &maps::picture(&maps, theme).map_err(failed)?)?;
         }
+    }
+    if deadline.is_past() {
+        return Ok(false);
     }
     let drawing = Drawing {
         run,
@@ -46,7 +56,7 @@ pub(super) fn write(
     if let Ok((png, _)) = drawing.png(&knee.program, &name, Some(Theme::Light)) {
         write_file(folder, "spheres.png", &png)?;
     }
-    Ok(())
+    Ok(true)
 }
 
 fn failed(error: PlotError) -> Failure {

@@ -5,6 +5,23 @@ use crate::grammar::Grammar;
 use crate::op::MAX_ARITY;
 use crate::program::{Arg, Draft, Instr};
 
+/// How many [`insertions`] visits.
+pub(in crate::search) fn insertion_count(draft: &Draft, grammar: &Grammar) -> usize {
+    let count = |edge: Edge| -> usize {
+        let sources = draft.inputs + earlier_than(draft, edge) + 1;
+        let choices = |arity: usize| arity.saturating_mul(sources.saturating_pow(arity as u32 - 1));
+        grammar.operations.iter().map(|(op, _)| choices(op.arity())).fold(0, usize::saturating_add)
+    };
+    edges(draft).map(count).fold(0, usize::saturating_add)
+}
+
+fn edges(draft: &Draft) -> impl Iterator<Item = Edge> {
+    let arguments = draft.instrs.iter().enumerate();
+    arguments
+        .flat_map(|(i, instr)| (0..instr.args().len()).map(move |place| Edge::Argument(i, place)))
+        .chain((0..draft.outputs.len()).map(Edge::Output))
+}
+
 /// Every draft that one more instruction makes of this one: any operation of the grammar, at any edge,
 /// its other arguments inputs, earlier results, or new constants. Not all differ in structure.
 pub(in crate::search) fn insertions(
@@ -12,11 +29,7 @@ pub(in crate::search) fn insertions(
     grammar: &Grammar,
     visit: &mut dyn FnMut(&Draft),
 ) {
-    let arguments = draft.instrs.iter().enumerate();
-    let edges = arguments
-        .flat_map(|(i, instr)| (0..instr.args().len()).map(move |place| Edge::Argument(i, place)))
-        .chain((0..draft.outputs.len()).map(Edge::Output));
-    for edge in edges {
+    for edge in edges(draft) {
         let at = earlier_than(draft, edge);
         let mut grown = draft.clone();
         let source = *edge_mut(&mut grown, edge);

@@ -7,7 +7,7 @@ mod insertions;
 mod rates;
 
 pub(super) use draw::{random_constant, random_draft};
-pub(super) use insertions::insertions;
+pub(super) use insertions::{insertion_count, insertions};
 pub(super) use rates::Rates;
 
 use crate::grammar::Grammar;

@@ -1,0 +1,103 @@
+//! When work ends before it is done: at a moment, or because someone asks for it.
+//!
+//! What takes long asks [`Deadline::is_past`] between its steps, and leaves what it has. Without a moment
+//! and without a request nothing is ever cut, and results depend on no clock.
+
+use std::sync::Arc;
+use std::sync::atomic::{AtomicUsize, Ordering};
+use std::time::{Duration, Instant};
+
+/// Requests to stop, from a signal's handler or another thread. Clones share them.
+#[derive(Clone, Debug, Default)]
+pub struct Stop(Arc<AtomicUsize>);
+
+impl Stop {
+    /// Asks once more; gives how often that has been done.
+    pub fn request(&self) -> usize {
+        self.0.fetch_add(1, Ordering::Relaxed) + 1
+    }
+
+    /// How often a stop was asked for.
+    pub fn requests(&self) -> usize {
+        self.0.load(Ordering::Relaxed)
+    }
+}
+
+/// The earlier of a moment and a request to stop, if there is either.
+#[derive(Clone, Debug, Default)]
+pub struct Deadline {
+    moment: Option<Instant>,
+    /// More requests than were made before.
+    stop: Option<(Stop, usize)>,
+    pause: Option<Instant>,
+}
+
+impl Deadline {
+    /// Nothing is cut.
+    pub const NEVER: Deadline = Deadline { moment: None, stop: None, pause: None };
+
+    pub fn at(moment: Instant) -> Deadline {
+        Deadline { moment: Some(moment), ..Deadline::NEVER }
+    }
+
+    /// This, or the next request from now on.
+    pub fn or_request(self, stop: &Stop) -> Deadline {
+        Deadline { stop: Some((stop.clone(), stop.requests())), ..self }
+    }
+
+    /// This, or so long from now.
+    pub fn within(&self, time: Duration) -> Deadline {
+        self.no_later_than(Instant::now() + time)
+    }
+
+    /// This, or a moment.
+    pub fn no_later_than(&self, moment: Instant) -> Deadline {
+        Deadline { moment: Some(self.moment.map_or(moment, |own| own.min(moment))), ..self.clone() }
+    }
+
+    /// This, and a pause so long from now: what can be gone on with stops then, as it does when asked to.
+    pub fn pausing_in(&self, time: Duration) -> Deadline {
+        let pause = Instant::now() + time;
+        Deadline { pause: Some(self.pause.map_or(pause, |own| own.min(pause))), ..self.clone() }
+    }
+
+    /// Its moment alone, for what cannot be gone on with: pauses and requests do not cut it.
+    pub fn moment_alone(&self) -> Deadline {
+        Deadline { moment: self.moment, ..Deadline::NEVER }
+    }
+
+    pub fn is_past(&self) -> bool {
+        self.stop.as_ref().is_some_and(|(stop, known)| stop.requests() > *known)
+            || [self.moment, self.pause].iter().flatten().any(|moment| Instant::now() >= *moment)
+    }
+
+    /// The time that is left, none where there is no moment.
+    pub fn left(&self) -> Option<Duration> {
+        self.moment.map(|moment| moment.saturating_duration_since(Instant::now()))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_moment_or_a_new_request_ends_it() {
+        let hour = Duration::from_secs(3600);
+        let stop = Stop::default();
+        assert!(!Deadline::NEVER.is_past());
+        assert!(Deadline::at(Instant::now()).is_past());
+        assert!(Deadline::NEVER.within(Duration::ZERO).is_past());
+        let later = Deadline::NEVER.within(hour).or_request(&stop);
+        assert!(!later.is_past() && later.left().is_some_and(|left| left <= hour));
+        stop.request();
+        assert!(later.is_past() && !later.moment_alone().is_past());
+        // Requests that were made before count no more.
+        let next = Deadline::NEVER.or_request(&stop);
+        assert!(!next.is_past() && next.left().is_none());
+        stop.request();
+        assert!(next.is_past() && next.within(hour).is_past());
+        let pausing = Deadline::NEVER.pausing_in(Duration::ZERO);
+        assert!(pausing.is_past() && !pausing.moment_alone().is_past());
+    }
+}

@@ -1,0 +1,229 @@
+//! What follows a search: its formulas polished and judged, the most valuable first, as long as there is
+//! time.
+
+use super::polish::{as_found, polish, promising};
+use super::rounding::beyond_rounding;
+use super::{Front, FrontMember, Problem, Search};
+use crate::archive::Member;
+use crate::deadline::Deadline;
+use crate::fit::{Fitter, Measure, Stop};
+use crate::program::Draft;
+use rayon::prelude::*;
+use std::sync::atomic::{AtomicUsize, Ordering};
+use std::time::{Duration, Instant};
+
+/// How long work may take, and who hears of it.
+pub struct Work<'a> {
+    pub deadline: Deadline,
+    /// Told what share is done.
+    pub progress: &'a (dyn Fn(f64) + Sync),
+}
+
+impl Work<'_> {
+    /// To the end, and nobody hears of it.
+    pub const TO_THE_END: Work<'static> = Work { deadline: Deadline::NEVER, progress: &|_| {} };
+
+    /// Does something for each of `order`, which are places in a list, in parallel, those first that come
+    /// first. The results are in the list's order.
+    fn each<T: Send>(&self, order: &[usize], job: impl Fn(usize) -> T + Sync) -> Vec<T> {
+        let (begun, done) = (AtomicUsize::new(0), AtomicUsize::new(0));
+        let next = |_| {
+            let place = order[begun.fetch_add(1, Ordering::Relaxed)];
+            let result = job(place);
+            let done = done.fetch_add(1, Ordering::Relaxed) + 1;
+            (self.progress)(done as f64 / order.len() as f64);
+            (place, result)
+        };
+        let mut results: Vec<(usize, T)> =
+            (0..order.len()).into_par_iter().with_max_len(1).map(next).collect();
+        results.sort_by_key(|(place, _)| *place);
+        results.into_iter().map(|(_, result)| result).collect()
+    }
+}
+
+impl Front {
+    /// [`Front::of`] without verdicts, cut at a deadline: members whose turn does not come are as the search
+    /// left them.
+    pub fn polished(search: &Search, problem: &Problem, work: &Work) -> Front {
+        let measure = problem.measure;
+        let archived = archived(search, problem);
+        let drafts = match measure {
+            Measure::Max => match contending(search, problem, measure, work) {
+                (drafts, false) => drafts,
+                (drafts, true) => [drafts, archived].concat(),
+            },
+            _ => archived,
+        };
+        let names = problem.dataset.names();
+        let samples = problem.all_in(measure);
+        let order: Vec<usize> = (0..drafts.len()).collect();
+        let members = work.each(&order, |place| {
+            let draft = &drafts[place];
+            match work.deadline.is_past() {
+                true => as_found(draft, problem, &names),
+                false => polish(draft, problem, &samples, &names, measure, &work.deadline),
+            }
+        });
+        Front::affordable(members.into_iter().flatten(), search, problem, measure)
+    }
+
+    /// [`Front::in_measure`] without verdicts, cut at a deadline; then the members of another front are
+    /// among those that compete.
+    pub fn polished_in(
+        search: &Search,
+        problem: &Problem,
+        measure: Measure,
+        known: &Front,
+        work: &Work,
+    ) -> Front {
+        if measure == problem.measure {
+            return known.clone();
+        }
+        let (drafts, mut is_cut) = match measure {
+            Measure::Max => contending(search, problem, measure, work),
+            _ => (archived(search, problem), false),
+        };
+        let names = problem.dataset.names();
+        let samples = problem.all_in(measure);
+        let order: Vec<usize> = (0..drafts.len()).collect();
+        let members = work.each(&order, |place| {
+            let time_left = !work.deadline.is_past();
+            time_left
+                .then(|| polish(&drafts[place], problem, &samples, &names, measure, &work.deadline))
+        });
+        is_cut |= members.iter().any(Option::is_none);
+        let mut members: Vec<FrontMember> = members.into_iter().flatten().flatten().collect();
+        if is_cut {
+            members.extend(known.members.iter().cloned());
+        }
+        Front::affordable(members.into_iter(), search, problem, measure)
+    }
+
+    /// What is brought into its range by polishing may have become too dear.
+    fn affordable(
+        members: impl Iterator<Item = FrontMember>,
+        search: &Search,
+        problem: &Problem,
+        measure: Measure,
+    ) -> Front {
+        let most = search.settings().max_cost;
+        let members = members.filter(|member| member.cost <= most).collect();
+        Front::from_members(beyond_rounding(members, problem, measure), measure)
+    }
+}
+
+/// The archive's drafts, the most valuable first; of an empty one the best constant, so that there always is
+/// a front.
+fn archived(search: &Search, problem: &Problem) -> Vec<Draft> {
+    let members = search.archive().members();
+    if members.is_empty() {
+        let mut constant = Draft { inputs: problem.all.inputs(), ..Draft::default() };
+        for output in 0..problem.all.outputs() {
+            let value = constant.constant(0.5 + output as f32);
+            constant.outputs.push(value);
+        }
+        Fitter::default().fit(&mut constant, &problem.all, CONSTANT);
+        return vec![constant];
+    }
+    let place = |member: &Member| (member.cost, member.loss);
+    let order = by_value(&members.iter().map(place).collect::<Vec<_>>());
+    order.into_iter().map(|place| members[place].draft.clone()).collect()
+}
+
+/// Least squares are linear in a constant: a step, and one more for rounding.
+const CONSTANT: Stop = Stop { max_steps: 8, min_gain: 1e-12 };
+
+/// Of a front's (cost, error), by rising cost: the places of those first that gain the most, in the
+/// logarithm of the error times the cycles up to the next.
+fn by_value(front: &[(f64, f64)]) -> Vec<usize> {
+    let value = |place: usize| {
+        let (cost, error) = front[place];
+        let width = front.get(place + 1).map_or(1.0, |next| next.0 - cost);
+        match place.checked_sub(1).map(|before| front[before].1) {
+            Some(before) => width * (before / error.max(f64::MIN_POSITIVE)).ln(),
+            // Without the cheapest there may be no front.
+            None => f64::INFINITY,
+        }
+    };
+    let mut order: Vec<usize> = (0..front.len()).collect();
+    order.sort_by(|&a, &b| value(b).total_cmp(&value(a)));
+    order
+}
+
+/// What may be on the front for the maximum error, and whether the deadline left some out.
+fn contending(
+    search: &Search,
+    problem: &Problem,
+    measure: Measure,
+    work: &Work,
+) -> (Vec<Draft>, bool) {
+    let mut drafts = archived(search, problem);
+    drafts.extend(search.contenders().into_iter().cloned());
+    let samples = problem.all_in(measure);
+    // As long to look as to polish what is worth it.
+    let half = work.deadline.left().map(|left| left / 2);
+    let look = half.map_or_else(|| work.deadline.clone(), |half| work.deadline.within(half));
+    promising(drafts, problem, &samples, &look)
+}
+
+/// What finishing a search is going to take.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Rehearsal {
+    /// Seconds to polish the front.
+    pub polish: f64,
+    /// Seconds to judge it.
+    pub judge: f64,
+}
+
+impl Rehearsal {
+    /// Finishes the dearest member, and takes the others to be a little faster.
+    pub fn of(search: &Search, problem: &Problem, deadline: &Deadline) -> Rehearsal {
+        let members = search.archive().members();
+        let Some(dearest) = members.last() else { return Rehearsal::default() };
+        let names = problem.dataset.names();
+        let start = Instant::now();
+        let samples = problem.all_in(problem.measure);
+        let polished = polish(&dearest.draft, problem, &samples, &names, problem.measure, deadline);
+        let polish = start.elapsed();
+        let start = Instant::now();
+        let mut front = Front::from_members(polished.into_iter().collect(), problem.measure);
+        front.judge_until(&problem.questions(), &names, &|| deadline.is_past());
+        Rehearsal::scaled(polish, start.elapsed(), members.len(), rayon::current_num_threads())
+    }
+
+    fn scaled(polish: Duration, judge: Duration, members: usize, threads: usize) -> Rehearsal {
+        let rounds = (members as f64 / threads as f64).ceil();
+        let all = |one: Duration| one.as_secs_f64() * (1.0 + (rounds - 1.0).max(0.0) * OF_DEAREST);
+        Rehearsal { polish: all(polish), judge: all(judge) }
+    }
+}
+
+/// The time that a member takes on average, relative to the dearest.
+const OF_DEAREST: f64 = 0.6;
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_gains_most_comes_first_after_the_cheapest() {
+        let front = [(0.0, 1.0), (1.0, 0.9), (5.0, 0.1), (6.0, 0.09), (9.0, 0.001)];
+        assert_eq!(by_value(&front), [0, 4, 2, 1, 3]);
+        assert_eq!(by_value(&[]), [0usize; 0]);
+    }
+
+    #[test]
+    fn work_is_begun_in_order_and_given_back_in_place() {
+        let begun = std::sync::Mutex::new(Vec::new());
+        let order = [3, 0, 2, 1];
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(1).build().unwrap();
+        let squares = pool.install(|| {
+            Work::TO_THE_END.each(&order, |place| {
+                begun.lock().unwrap().push(place);
+                place * place
+            })
+        });
+        assert_eq!(squares, [0, 1, 4, 9]);
+        assert_eq!(begun.into_inner().unwrap(), order);
+    }
+}

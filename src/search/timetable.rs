@@ -1,0 +1,199 @@
+//! How the time of a run is shared between the search and what follows it.
+
+use super::finish::Rehearsal;
+use super::{Problem, Search};
+use crate::deadline::{Deadline, Stop};
+use std::time::{Duration, Instant};
+
+/// Seconds since a run began at which its phases end. Nothing is known at first of what polishing and verdicts
+/// take; rehearsals tell.
+#[derive(Clone, Copy, Debug, PartialEq)]
+struct Shares {
+    total: f64,
+    rehearsal: Rehearsal,
+    /// Seconds that files and pictures take.
+    writing: f64,
+}
+
+/// Of the time, for the first formulas.
+const STARTING: f64 = 0.25;
+
+/// Of the time, at most, for all that follows the search, for verdicts, and for files.
+const MOST_FINISHING: f64 = 0.5;
+const MOST_JUDGING: f64 = 0.2;
+const MOST_WRITING: f64 = 0.25;
+
+/// Of the time, for the front for the maximum error.
+const SECOND_FRONT: f64 = 0.08;
+
+/// Files and pictures: a second, and what a million rows take.
+const WRITING: f64 = 1.0;
+const WRITING_A_MILLION_ROWS: f64 = 1.0;
+
+/// Of the time, when rehearsals are due, and what one may take.
+const REHEARSALS: [f64; 3] = [0.1, 0.3, 0.6];
+const A_REHEARSAL: f64 = 0.05;
+
+impl Shares {
+    fn judging_ends(&self) -> f64 {
+        self.total - self.writing.min(MOST_WRITING * self.total)
+    }
+
+    /// Verdicts of both fronts begin.
+    fn polishing_ends(&self) -> f64 {
+        self.judging_ends() - (2.0 * self.rehearsal.judge).min(MOST_JUDGING * self.total)
+    }
+
+    fn search_ends(&self) -> f64 {
+        let polishing = self.rehearsal.polish + SECOND_FRONT * self.total;
+        (self.polishing_ends() - polishing).max((1.0 - MOST_FINISHING) * self.total)
+    }
+}
+
+/// The time that a run may take, if it is limited, and requests to stop.
+#[derive(Clone, Debug)]
+pub struct Timetable {
+    start: Instant,
+    shares: Option<Shares>,
+    /// Rehearsals that were made.
+    rehearsals: usize,
+    stop: Stop,
+    /// A request that is made while the search goes on ends that; one made later, what is going on then.
+    search: Deadline,
+    finishing: Deadline,
+}
+
+impl Timetable {
+    /// Of a run that began at `start`, on a dataset of so many rows.
+    pub fn new(start: Instant, total: Option<Duration>, rows: usize, stop: &Stop) -> Timetable {
+        let shares = |total: Duration| Shares {
+            total: total.as_secs_f64(),
+            rehearsal: Rehearsal::default(),
+            writing: WRITING + WRITING_A_MILLION_ROWS * rows as f64 * 1e-6,
+        };
+        Timetable {
+            start,
+            shares: total.map(shares),
+            rehearsals: 0,
+            stop: stop.clone(),
+            search: Deadline::NEVER.or_request(stop),
+            finishing: Deadline::NEVER.or_request(stop),
+        }
+    }
+
+    /// Since the run began.
+    pub fn seconds(&self) -> f64 {
+        self.start.elapsed().as_secs_f64()
+    }
+
+    /// For the first formulas.
+    pub fn starting(&self) -> Deadline {
+        self.until(&self.search, |shares| STARTING * shares.total)
+    }
+
+    /// For the search.
+    pub fn search(&self) -> Deadline {
+        self.until(&self.search, Shares::search_ends)
+    }
+
+    /// Finds out, now and then, what finishing will take.
+    pub fn rehearse(&mut self, search: &Search, problem: &Problem) {
+        let seconds = self.seconds();
+        let Some(shares) = &mut self.shares else { return };
+        let due = REHEARSALS.get(self.rehearsals).is_some_and(|due| seconds >= due * shares.total);
+        if due {
+            let most = Duration::from_secs_f64(A_REHEARSAL * shares.total);
+            shares.rehearsal = Rehearsal::of(search, problem, &self.search.within(most));
+            self.rehearsals += 1;
+        }
+    }
+
+    /// The search is over: requests count anew, and if one was made, the rest takes no longer than was
+    /// kept for it.
+    pub fn begin_finishing(&mut self) {
+        self.finishing = Deadline::NEVER.or_request(&self.stop);
+        let seconds = self.seconds();
+        if let Some(shares) = self.shares.as_mut().filter(|_| self.stop.requests() > 0) {
+            shares.total = shares.total.min(seconds + shares.total - shares.search_ends());
+        }
+    }
+
+    /// For polishing, of either front.
+    pub fn polishing(&self) -> Deadline {
+        self.until(&self.finishing, Shares::polishing_ends)
+    }
+
+    /// For verdicts.
+    pub fn judging(&self) -> Deadline {
+        self.until(&self.finishing, Shares::judging_ends)
+    }
+
+    /// For pictures.
+    pub fn writing(&self) -> Deadline {
+        self.until(&self.finishing, |shares| shares.total)
+    }
+
+    fn until(&self, requests: &Deadline, seconds: impl Fn(&Shares) -> f64) -> Deadline {
+        match &self.shares {
+            Some(shares) => {
+                let end = self.start + Duration::from_secs_f64(seconds(shares).max(0.0));
+                requests.no_later_than(end)
+            }
+            None => requests.clone(),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn shares(total: f64, polish: f64, judge: f64) -> Shares {
+        Shares { total, rehearsal: Rehearsal { polish, judge }, writing: 1.0 }
+    }
+
+    #[test]
+    fn phases_follow_each_other_within_the_whole() {
+        for total in [0.0, 0.1, 1.0, 10.0, 60.0, 3600.0] {
+            for (polish, judge) in [(0.0, 0.0), (0.5, 2.0), (100.0, 0.0), (0.0, 1e6), (1e6, 1e6)] {
+                let shares = shares(total, polish, judge);
+                let ends =
+                    [shares.search_ends(), shares.polishing_ends(), shares.judging_ends(), total];
+                assert!(ends.is_sorted(), "{shares:?}: {ends:?}");
+                assert!(ends[0] >= 0.5 * total, "half of the time is the search's");
+            }
+        }
+    }
+
+    #[test]
+    fn what_finishing_takes_is_kept_for_it() {
+        let shares = shares(60.0, 3.0, 1.0);
+        assert_eq!(shares.judging_ends(), 59.0);
+        assert_eq!(shares.polishing_ends(), 57.0);
+        assert!((shares.search_ends() - (54.0 - SECOND_FRONT * 60.0)).abs() < 1e-9);
+    }
+
+    #[test]
+    fn without_a_limit_requests_alone_end_a_phase() {
+        let stop = Stop::default();
+        let mut times = Timetable::new(Instant::now(), None, 1000, &stop);
+        assert!(!times.search().is_past() && times.search().left().is_none());
+        stop.request();
+        assert!(times.search().is_past() && times.starting().is_past());
+        times.begin_finishing();
+        assert!(!times.polishing().is_past() && !times.judging().is_past());
+        stop.request();
+        assert!(times.polishing().is_past() && times.writing().is_past());
+    }
+
+    #[test]
+    fn a_search_that_is_stopped_leaves_no_more_time_than_was_kept() {
+        let stop = Stop::default();
+        let mut times =
+            Timetable::new(Instant::now(), Some(Duration::from_secs(1000)), 1000, &stop);
+        assert!(times.search().left().is_some_and(|left| left > Duration::from_secs(800)));
+        stop.request();
+        times.begin_finishing();
+        assert!(times.judging().left().is_some_and(|left| left < Duration::from_secs(100)));
+    }
+}
