@@ -11,6 +11,7 @@
 //! | module | owns |
 //! |---|---|
 //! | [`deadline`] | when work ends before it is done |
+//! | [`printable`], [`suggest`] | text from elsewhere made harmless; the nearest known name |
 //! | [`num`] | registers of lanes, and mathematics with the same bits at every width; low-discrepancy points, sums |
 //! | [`op`] | the one table of operations, and what they mean |
 //! | [`program`] | instructions, verified programs, effective code, hashes, formula text |
@@ -56,6 +57,7 @@
 //! ```
 
 pub mod deadline;
+pub mod printable;
 pub mod suggest;
 
 pub mod num;

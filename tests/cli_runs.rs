@@ -231,3 +231,22 @@ fn the_comment_of_halves_states_their_own_error() {
     assert!(error > 1e-5 && error < 0.05, "{error}");
     assert!(shown.contains("verdicts above are those of single precision"));
 }
+
+#[test]
+fn ends_are_printed_as_single_precision_has_them() {
+    let folder = tempfile::tempdir().unwrap();
+    let here = folder.path();
+    let rows: String =
+        (1..=66).map(|i| format!("{},{}\n", i as f32 / 66.0, 66.0 / i as f32)).collect();
+    std::fs::write(here.join("d.csv"), format!("x,y\n{rows}")).unwrap();
+    succeed(here, &["import", "d.csv", "-o", "d.bin", "--inputs", "1", "--quiet"]);
+    let search = ["search", "d.bin", "--generations", "1", "--islands", "1", "--out", "run"];
+    let searched = succeed(here, &search);
+    let emitted = succeed(here, &["emit", "run", "--lang", "hlsl"]);
+    assert!(emitted.contains("x in [0.015151516, 1]"), "{emitted}");
+    let checked = text(&lgp(here, &["check", "run"]).stdout);
+    let info = succeed(here, &["info", "d.bin"]);
+    for said in [searched, emitted, checked, info] {
+        assert!(!said.contains("0.01515151560"), "{said}");
+    }
+}

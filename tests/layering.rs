@@ -2,8 +2,9 @@
 
 use std::path::{Path, PathBuf};
 
-const LAYERS: [&str; 21] = [
+const LAYERS: [&str; 22] = [
     "deadline",
+    "printable",
     "suggest",
     "num",
     "op",

@@ -1,7 +1,7 @@
+use super::output::to_stderr;
 use crate::grammar::FileError;
 use crate::search::{Incompatible, RecordError};
 use crate::{dataset, program, scene, targets};
-use std::io::Write;
 use std::path::Path;
 use std::process::ExitCode;
 
@@ -59,8 +59,7 @@ impl Failure {
                 text = format!("{text}\n  because: {cause}");
             }
         }
-        // Nobody is left to tell if stderr is closed.
-        let _ = writeln!(std::io::stderr(), "error: {text}");
+        to_stderr(&format!("error: {text}"));
     }
 }
 

@@ -142,7 +142,9 @@ fn bounds(text: &str) -> Result<(String, [f32; 2]), String> {
     let (low, high) = range.split_once("..").ok_or(wanted)?;
     let end = |text: &str, open: f32| match text {
         "" => Ok(open),
-        number => number.parse::<f32>().map_err(|_| wanted),
+        number => number.parse().ok().filter(|end: &f32| end.is_finite()).ok_or(
+            "an end is a number within ±3.4e38; leave it out where there is none, as in a=0..",
+        ),
     };
     let range = [end(low, f32::NEG_INFINITY)?, end(high, f32::INFINITY)?];
     if range[0] <= range[1] {

@@ -24,6 +24,7 @@ pub struct Args {
 #[derive(Serialize)]
 struct Made {
     dataset: String,
+    #[serde(serialize_with = "crate::cli::output::readable")]
     path: PathBuf,
     recipe: String,
     search_rows: usize,

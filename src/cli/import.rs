@@ -26,6 +26,7 @@ pub struct Args {
 #[derive(Serialize)]
 struct Imported {
     dataset: String,
+    #[serde(serialize_with = "crate::cli::output::readable")]
     path: PathBuf,
     inputs: Vec<String>,
     outputs: Vec<String>,

@@ -14,6 +14,7 @@ pub struct Args {
 #[derive(Serialize)]
 struct Info {
     name: String,
+    #[serde(serialize_with = "crate::cli::output::readable")]
     path: PathBuf,
     hash: String,
     recipe: String,

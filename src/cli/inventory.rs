@@ -1,7 +1,7 @@
 //! What the folders of a project hold.
 
 use crate::cost::Profile;
-use crate::dataset::{Column, Dataset, load_incumbents};
+use crate::dataset::{Column, Dataset, LARGEST_TEXT, load_incumbents, read_text};
 use crate::grammar::Grammar;
 use serde::Serialize;
 use std::path::{Path, PathBuf};
@@ -9,6 +9,7 @@ use std::path::{Path, PathBuf};
 /// A file that a command can be given.
 #[derive(Serialize)]
 pub(super) struct Entry {
+    #[serde(serialize_with = "crate::cli::output::readable")]
     pub path: PathBuf,
     /// One line.
     pub description: String,
@@ -75,7 +76,7 @@ fn entries(
 
 /// What a `.ron` file says of itself in its first line.
 fn first_comment(path: &Path) -> Result<String, String> {
-    let text = std::fs::read_to_string(path).map_err(|error| error.to_string())?;
+    let text = read_text(path, LARGEST_TEXT).map_err(|error| error.to_string())?;
     let first = text.lines().next().unwrap_or_default();
     Ok(first.strip_prefix("//").unwrap_or_default().trim().to_owned())
 }

@@ -44,9 +44,7 @@ pub fn run(args: &Args, common: &Common) -> Result<(), Failure> {
     let records: Vec<_> = union.members.iter().map(|m| MemberRecord::new(m, &names)).collect();
     common.result(&records, &front_table(&union, &incumbents, &names.outputs))?;
     written?;
-    if !common.quiet {
-        eprintln!("{} searches; written to {}", run.sources.len(), args.out.display());
-    }
+    common.note(&format!("{} searches; written to {}", run.sources.len(), args.out.display()));
     Ok(())
 }
 

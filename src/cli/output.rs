@@ -1,9 +1,10 @@
 //! What every command says, and where: results on stdout, the rest on stderr.
 
 use super::{Exit, Failure};
-use crate::dataset::Dataset;
+use crate::dataset::{Dataset, check_replaceable};
+use crate::printable::{printable_json, printable_lines};
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
-use serde::Serialize;
+use serde::{Serialize, Serializer};
 use std::io::{ErrorKind, IsTerminal, Write};
 use std::path::Path;
 
@@ -43,11 +44,11 @@ impl Common {
     /// A result: `text`, or with `--json` the value.
     pub fn result(&self, value: &impl Serialize, text: &str) -> Result<(), Failure> {
         if !self.json {
-            return to_stdout(text.trim_end());
+            return to_stdout(&printable_lines(text.trim_end()));
         }
         let json = serde_json::to_string_pretty(value)
             .map_err(|error| Failure::new(Exit::Failed, error))?;
-        to_stdout(&json)
+        to_stdout(&printable_json(&json))
     }
 
     /// What a command that leaves a file behind says of it.
@@ -55,10 +56,17 @@ impl Common {
         if self.quiet && !self.json {
             return Ok(());
         }
-        if self.json && !self.quiet {
-            let _ = writeln!(std::io::stderr(), "{text}");
+        if self.json {
+            self.note(text);
         }
         self.result(value, text)
+    }
+
+    /// What a result is accompanied by, unless nothing but it is wanted.
+    pub fn note(&self, text: &str) {
+        if !self.quiet {
+            to_stderr(text);
+        }
     }
 
     /// A bar on a terminal, else nothing.
@@ -70,6 +78,17 @@ impl Common {
         let style = style.unwrap_or_else(|_| ProgressStyle::default_bar());
         ProgressBar::new(0).with_style(style).with_message(verb)
     }
+}
+
+/// A path in JSON, which is text.
+pub(super) fn readable<S: Serializer>(path: &Path, serializer: S) -> Result<S::Ok, S::Error> {
+    serializer.serialize_str(&path.to_string_lossy())
+}
+
+/// Says something on stderr.
+pub(super) fn to_stderr(text: &str) {
+    // Nobody is left to tell if stderr is closed.
+    let _ = writeln!(std::io::stderr(), "{}", printable_lines(text));
 }
 
 fn to_stdout(text: &str) -> Result<(), Failure> {
@@ -91,9 +110,10 @@ pub fn check_writable(path: &Path) -> Result<(), Failure> {
         Some(parent) if !parent.as_os_str().is_empty() => parent,
         _ => Path::new("."),
     };
-    if path.is_dir() || path.file_name().is_none() {
+    if path.file_name().is_none() {
         return Err(Failure::unwritable(path, "it is a folder"));
     }
+    check_replaceable(path).map_err(|error| Failure::unwritable(path, error))?;
     let attempt = tempfile::Builder::new().prefix(".lgp-").tempfile_in(folder);
     // The error would name the temporary, which means nothing to the user.
     attempt.map(drop).map_err(|error| Failure::unwritable(path, reason(&error)))

@@ -130,9 +130,10 @@ fn free(name: &str, common: &Common) -> Result<RunFolder, Failure> {
         }
         match RunFolder::claim(&path) {
             Ok(folder) if Holding::of(&path) == Holding::NoRun => {
-                if number > 0 && !common.quiet {
+                if number > 0 {
                     let first = default_folders(name).next().unwrap_or_default();
-                    eprintln!("{} is taken; this run goes to {}", first.display(), path.display());
+                    let [first, path] = [first.display(), path.display()];
+                    common.note(&format!("{first} is taken; this run goes to {path}"));
                 }
                 return Ok(folder);
             }
@@ -219,11 +220,11 @@ fn check_operations(
         }
     }
     let is_beyond = |op: &crate::op::Op| *op != crate::op::Op::Neg && !grammar.has(*op);
-    if let Some(op) = used.iter().find(|op| is_beyond(op)).filter(|_| !common.quiet) {
-        eprintln!(
+    if let Some(op) = used.iter().find(|op| is_beyond(op)) {
+        common.note(&format!(
             "warning: --guess: the grammar {} has no `{op}`; the guess is taken as it is, and only what comes of it may have `{op}`",
             grammar.name
-        );
+        ));
     }
     Ok(())
 }

@@ -79,6 +79,7 @@ fn stops(text: &str) -> Result<f32, String> {
 
 #[derive(Serialize)]
 struct Written {
+    #[serde(serialize_with = "crate::cli::output::readable")]
     picture: PathBuf,
     /// Root mean square of the displayed differences, over all spheres, channels in [0, 1].
     displayed_rmse: f64,

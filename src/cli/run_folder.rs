@@ -1,11 +1,13 @@
 //! What a search leaves behind while it goes on and at its end, and how a command reads it.
 
+use super::output::to_stderr;
 use super::{Exit, Failure};
 use crate::dataset::{Column, replace_file};
 use crate::emit::{self, Language, Snippet};
 use crate::eval::OutputError;
 use crate::fit::Measure;
 use crate::num::Interval;
+use crate::program::shortest;
 use crate::report::examination::at_most;
 use crate::report::plot::{self, FrontPlot, PlotError, Theme};
 use crate::report::table::{Published, axis_title, cycles_text, error_text, front_table, title};
@@ -95,9 +97,9 @@ impl PartialRun {
         if let Err(failure) = self.checkpoint(run, search) {
             let warning = failure.error.to_string();
             if warning != self.warned {
-                eprintln!(
+                to_stderr(&format!(
                     "warning: {warning}\nthe search goes on, but could not be resumed from here"
-                );
+                ));
                 self.warned = warning;
             }
         }
@@ -312,7 +314,7 @@ fn described(error: OutputError, measure: Measure) -> String {
 
 pub(super) fn domains(inputs: &[Column]) -> String {
     let domain = |column: &Column| {
-        let [low, high] = column.domain;
+        let [low, high] = column.domain.map(shortest);
         format!("{} in [{low}, {high}]", column.name)
     };
     inputs.iter().map(domain).collect::<Vec<_>>().join(", ")

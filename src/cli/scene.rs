@@ -47,6 +47,7 @@ struct FromArgs {
 #[derive(Serialize)]
 struct Made {
     scene: Scene,
+    #[serde(serialize_with = "crate::cli::output::readable")]
     path: PathBuf,
     pixels: usize,
 }

@@ -246,21 +246,18 @@ fn show(
 }
 
 fn say_where(common: &Common, run: &Run, folder: &Path) {
-    if common.quiet {
-        return;
-    }
-    eprintln!(
+    common.note(&format!(
         "{} generations, {} candidates considered, {} fitted in {:.1} s; written to {}",
         run.generations,
         run.counts.considered,
         run.counts.fitted,
         run.seconds,
         folder.display()
-    );
+    ));
     if let Some(enumeration) = run.enumeration {
-        eprintln!(
+        common.note(&format!(
             "all {} structures of at most {} cycles were tried",
             enumeration.structures, enumeration.cost
-        );
+        ));
     }
 }

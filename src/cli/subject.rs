@@ -94,7 +94,7 @@ impl Subject {
             }
         }
         let folder = path.parent().unwrap_or(Path::new("")).join("incumbents");
-        let own = folder.join(&self.dataset.name).with_extension("ron");
+        let own = folder.join(format!("{}.ron", self.dataset.name));
         if own.is_file() {
             let own = load_incumbents(&own)?;
             found.extend(own.iter().filter_map(|known| known.compared_on(&self.dataset)));

@@ -1,5 +1,5 @@
 use super::select::unknown_column;
-use super::{Column, Dataset, Error, Split, check_identifier, domain_of};
+use super::{Column, Dataset, Error, LARGEST_FILE, Split, check_identifier, domain_of, read_file};
 use std::collections::HashSet;
 use std::path::Path;
 
@@ -32,7 +32,23 @@ impl Table {
     /// # Errors
     /// Those of [`import_csv`] that are of the file and its cells.
     pub fn read(path: &Path) -> Result<Table, Error> {
-        parse(path, &read_text(path)?)
+        Table::parse(path, &read_text(path)?)
+    }
+
+    /// Reads the text of a table; `path` is where it is from, for the error.
+    ///
+    /// # Errors
+    /// Those of [`Table::read`] that are of the content.
+    pub fn parse(path: &Path, text: &str) -> Result<Table, Error> {
+        parse(path, text)
+    }
+
+    /// What [`import_csv`] makes of a table.
+    ///
+    /// # Errors
+    /// Those of [`import_csv`] that are of the columns.
+    pub fn dataset(self, path: &Path, inputs: &InputColumns) -> Result<Dataset, Error> {
+        imported(path, self, inputs)
     }
 
     /// The place of a column; `path` is the file's, for the error.
@@ -65,7 +81,10 @@ impl Table {
 /// is no finite number in the range of f32; an input that is not there;
 /// nothing left to be an output.
 pub fn import_csv(path: &Path, inputs: &InputColumns) -> Result<Dataset, Error> {
-    let mut table = Table::read(path)?;
+    imported(path, Table::read(path)?, inputs)
+}
+
+fn imported(path: &Path, mut table: Table, inputs: &InputColumns) -> Result<Dataset, Error> {
     let weights = take_weights(path, &mut table, inputs)?;
     let order = column_order(path, &table.names, inputs)?;
     let Table { names, mut columns, .. } = table;
@@ -95,7 +114,7 @@ pub fn import_csv(path: &Path, inputs: &InputColumns) -> Result<Dataset, Error> 
 }
 
 fn read_text(path: &Path) -> Result<String, Error> {
-    let bytes = std::fs::read(path).map_err(|source| match source.kind() {
+    let bytes = read_file(path, LARGEST_FILE).map_err(|source| match source.kind() {
         std::io::ErrorKind::NotFound => Error::Missing { path: path.into() },
         _ => Error::Io { path: path.into(), action: "read", source },
     })?;

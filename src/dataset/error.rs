@@ -1,3 +1,4 @@
+use super::{MOST_COLUMNS, MOST_ROWS, NameFault};
 use std::path::PathBuf;
 
 /// Why a dataset cannot be read, written or used. `path` is the file, or the
@@ -24,17 +25,25 @@ pub enum Error {
     #[error("{path}: unusable header: {problem}; generate or import it again", path = path.display())]
     Header { path: PathBuf, problem: String },
 
+    #[error("{path}: a dataset cannot be called `{name}`: {fault}; call its file otherwise and make it again", path = path.display())]
+    Name { path: PathBuf, name: String, fault: NameFault },
+    #[error("{path}: {columns} columns are more than {MOST_COLUMNS}; leave some out", path = path.display())]
+    TooManyColumns { path: PathBuf, columns: usize },
+    #[error("{path}: the {split} split has {rows} rows, more than {MOST_ROWS}; take some of them", path = path.display())]
+    TooManyRows { path: PathBuf, split: &'static str, rows: usize },
+    #[error("{path}: the unit of column `{column}` is none: {fault}; write it as in `nm`", path = path.display())]
+    Unit { path: PathBuf, column: String, fault: NameFault },
     #[error("{path}: no input columns; name at least one", path = path.display())]
     NoInputs { path: PathBuf },
     #[error("{path}: no output columns are left; make fewer columns inputs", path = path.display())]
     NoOutputs { path: PathBuf },
     #[error("{path}: the {split} split has no rows; at least one is needed", path = path.display())]
     NoRows { path: PathBuf, split: &'static str },
-    #[error("{path}{}: column name `{column}` is not an identifier (letters, digits and `_`, no digit first); rename it, for example to `{suggestion}`", at_line(*line), path = path.display())]
+    #[error("{path}{}: column name `{column}` is not an identifier (at most 200 letters, digits and `_`, no digit first); rename it, for example to `{suggestion}`", at_line(*line), path = path.display())]
     ColumnName { path: PathBuf, line: Option<usize>, column: String, suggestion: String },
     #[error("{path}: column `{column}` occurs more than once; name each column once", path = path.display())]
     DuplicateColumn { path: PathBuf, column: String },
-    #[error("{path}: column `{column}` has the domain [{low}, {high}]; it must be finite and in ascending order", path = path.display())]
+    #[error("{path}: column `{column}` has the domain [{low}, {high}]; it must be in ascending order, within ±3.4e38 as 32-bit floats are", path = path.display())]
     Domain { path: PathBuf, column: String, low: f64, high: f64 },
     #[error("{path}: the {split} split has {found} columns, but {expected} are named; generate or import it again", path = path.display())]
     ColumnCount { path: PathBuf, split: &'static str, found: usize, expected: usize },

@@ -1,3 +1,4 @@
+use super::kind::check_replaceable;
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 use std::sync::OnceLock;
@@ -8,10 +9,11 @@ pub const TEMPORARY: &str = ".lgp-";
 
 /// Writes a file so that, whenever the process is killed, `path` holds either
 /// its old content or all of the new: to a temporary in the same folder, then
-/// renamed.
+/// renamed. A link at `path` is replaced itself; what it leads to stays as it is.
 ///
 /// # Errors
-/// Those of creating, writing and renaming the temporary.
+/// A folder, a device, a pipe or a socket at `path`, which is left alone; those of creating, writing
+/// and renaming the temporary.
 pub fn replace_file(path: &Path, bytes: &[u8]) -> io::Result<()> {
     StagedFile::new(path, bytes)?.put_in_place()
 }
@@ -27,8 +29,9 @@ impl StagedFile {
     /// Writes the content to a temporary in the folder of `path`.
     ///
     /// # Errors
-    /// Those of creating and writing it.
+    /// What is at `path` is no file ([`check_replaceable`]); those of creating and writing the temporary.
     pub fn new(path: &Path, bytes: &[u8]) -> io::Result<StagedFile> {
+        check_replaceable(path)?;
         let folder = match path.parent() {
             Some(parent) if !parent.as_os_str().is_empty() => parent,
             _ => Path::new("."),

@@ -3,7 +3,7 @@
 //! weights and free errors, then the validation split's), and the 32-byte blake3 checksum
 //! of everything before it.
 
-use super::{Column, Dataset, Error, Split, replace_file};
+use super::{Column, Dataset, Error, LARGEST_FILE, Split, read_file, replace_file};
 use serde::{Deserialize, Serialize};
 use std::path::Path;
 
@@ -43,14 +43,22 @@ impl Dataset {
     ///
     /// # Errors
     /// A file that is missing, empty, not a dataset, of another version,
-    /// truncated, too long, damaged, or whose content [`Dataset::validate`]
+    /// beyond [`LARGEST_FILE`], truncated, too long, damaged, or whose content [`Dataset::validate`]
     /// refuses. Nothing is allocated on the word of an unverified header.
     pub fn load(path: &Path) -> Result<Dataset, Error> {
-        let bytes = std::fs::read(path).map_err(|source| match source.kind() {
+        let bytes = read_file(path, LARGEST_FILE).map_err(|source| match source.kind() {
             std::io::ErrorKind::NotFound => Error::Missing { path: path.into() },
             _ => Error::Io { path: path.into(), action: "read", source },
         })?;
-        let dataset = parse(path, &bytes)?;
+        Dataset::parse(path, &bytes)
+    }
+
+    /// Reads the bytes of a `.bin` file; `path` is where they are from, for the error.
+    ///
+    /// # Errors
+    /// Those of [`Dataset::load`] that are of the content.
+    pub fn parse(path: &Path, bytes: &[u8]) -> Result<Dataset, Error> {
+        let dataset = parse(path, bytes)?;
         dataset.validate_as(path)?;
         Ok(dataset)
     }
@@ -61,7 +69,6 @@ impl Dataset {
     /// A dataset that [`Dataset::validate`] refuses, or a file that cannot be
     /// written.
     pub fn save(&self, path: &Path) -> Result<(), Error> {
-        self.validate_as(path)?;
         let bytes = self.to_bytes(path)?;
         replace_file(path, &bytes).map_err(|source| Error::Io {
             path: path.into(),
@@ -77,8 +84,12 @@ impl Dataset {
         blake3::hash(&content).to_hex().as_str()[..16].to_owned()
     }
 
-    /// The bytes of the `.bin` file.
-    fn to_bytes(&self, path: &Path) -> Result<Vec<u8>, Error> {
+    /// The bytes of the `.bin` file; `path` is where they are to go, for the error.
+    ///
+    /// # Errors
+    /// A dataset that [`Dataset::validate`] refuses.
+    pub fn to_bytes(&self, path: &Path) -> Result<Vec<u8>, Error> {
+        self.validate_as(path)?;
         let header = self.header();
         if u32::try_from(header.len()).is_err() {
             let problem = "names and recipe are longer than 4 GiB".into();

@@ -1,7 +1,7 @@
 //! Published formulas for a dataset, to be scored on the same axes as what a
 //! search finds.
 
-use super::{Dataset, Error};
+use super::{Dataset, Error, LARGEST_TEXT, check_text, read_text};
 use crate::program::{Names, Program, parse, parse_open};
 use serde::Deserialize;
 use std::path::{Path, PathBuf};
@@ -57,7 +57,7 @@ impl Incumbent {
 /// A file that cannot be read, is no list of incumbents, names two alike, or
 /// holds a formula that is none.
 pub fn load_incumbents(path: &Path) -> Result<Vec<Incumbent>, Error> {
-    let text = std::fs::read_to_string(path).map_err(|source| match source.kind() {
+    let text = read_text(path, LARGEST_TEXT).map_err(|source| match source.kind() {
         std::io::ErrorKind::NotFound => Error::Missing { path: path.into() },
         _ => Error::Io { path: path.into(), action: "read", source },
     })?;
@@ -66,6 +66,10 @@ pub fn load_incumbents(path: &Path) -> Result<Vec<Incumbent>, Error> {
         .map_err(|error| refused(error.span.start.line, error.code.to_string()))?;
     for (index, incumbent) in incumbents.iter().enumerate() {
         let name = &incumbent.name;
+        if let Err(fault) = check_text(name) {
+            let line = line_naming(&text, name, 0);
+            return Err(refused(line, format!("a formula cannot be called {name:?}: {fault}")));
+        }
         if incumbents[..index].iter().any(|earlier| earlier.name == *name) {
             let line = line_naming(&text, name, 1);
             return Err(refused(line, format!("`{name}` occurs twice; name each incumbent once")));

@@ -10,6 +10,8 @@ mod error;
 mod file;
 mod format;
 mod incumbent;
+mod kind;
+mod name;
 mod prune;
 mod select;
 mod unit;
@@ -18,6 +20,8 @@ pub use csv::{InputColumns, Table, import_csv};
 pub use error::Error;
 pub use file::{StagedFile, TEMPORARY, remove_file, replace_file, witness_file_operations};
 pub use incumbent::{Comparable, Incumbent, incumbents_file, incumbents_for, load_incumbents};
+pub use kind::{check_replaceable, read_file, read_text};
+pub use name::{LONGEST_NAME, NameFault, check_name, check_text};
 pub use unit::{joint_unit, output_units, unit};
 
 use crate::program::Names;
@@ -79,9 +83,9 @@ pub struct Dataset {
 }
 
 impl Dataset {
-    /// Checks what every consumer relies on: at least one input, one output
-    /// and one row a split; names that are unique identifiers; ordered finite
-    /// domains; columns of equal length holding finite values; weights finite,
+    /// Checks what every consumer relies on: a name that names a file ([`check_name`]); at least one
+    /// input, one output and one row a split, at most [`MOST_COLUMNS`] and [`MOST_ROWS`]; names of columns
+    /// that are unique identifiers, units of one line; ordered domains within f32; columns of equal length holding finite values; weights finite,
     /// not negative, and not all zero; a grid that multiplies to the rows.
     ///
     /// # Errors
@@ -92,6 +96,11 @@ impl Dataset {
 
     /// The same, for the file at `path`.
     fn validate_as(&self, path: &Path) -> Result<(), Error> {
+        check_name(&self.name).map_err(|fault| Error::Name {
+            path: path.into(),
+            name: self.name.clone(),
+            fault,
+        })?;
         if self.inputs.is_empty() {
             return Err(Error::NoInputs { path: path.into() });
         }
@@ -142,8 +151,10 @@ impl Dataset {
         if found != expected {
             return Err(Error::ColumnCount { path: path.into(), split, found, expected });
         }
-        if rows.rows() == 0 {
-            return Err(Error::NoRows { path: path.into(), split });
+        match rows.rows() {
+            0 => return Err(Error::NoRows { path: path.into(), split }),
+            1..=MOST_ROWS => {}
+            rows => return Err(Error::TooManyRows { path: path.into(), split, rows }),
         }
         for (column, values) in self.columns().zip(&rows.columns) {
             validate_values(path, split, &column.name, values, rows.rows())?;
@@ -164,7 +175,17 @@ impl Dataset {
     }
 }
 
-/// Checks that names are unique identifiers, and domains finite and ordered.
+/// Columns of a dataset: formulas index them by 16 bits, and scenes add values to them.
+pub const MOST_COLUMNS: usize = 4096;
+/// Bytes of a file that datasets and tables are read from.
+pub const LARGEST_FILE: u64 = 1 << 30;
+/// Bytes of a file of settings, recipes or formulas.
+pub const LARGEST_TEXT: u64 = 1 << 24;
+/// Rows of a split.
+pub const MOST_ROWS: usize = 1 << 28;
+
+/// Checks that columns are not too many, names unique identifiers, units of one line, and domains within f32
+/// and ordered.
 ///
 /// # Errors
 /// The first violation found, at `path`.
@@ -178,8 +199,14 @@ pub fn check_columns<'a>(
         if !seen.insert(column.name.as_str()) {
             return Err(Error::DuplicateColumn { path: path.into(), column: column.name.clone() });
         }
+        check_text(&column.unit).map_err(|fault| Error::Unit {
+            path: path.into(),
+            column: column.name.clone(),
+            fault,
+        })?;
         let [low, high] = column.domain;
-        if !(low.is_finite() && high.is_finite() && low <= high) {
+        let narrow = |end: f64| (end as f32).is_finite();
+        if !(narrow(low) && narrow(high) && low <= high) {
             return Err(Error::Domain {
                 path: path.into(),
                 column: column.name.clone(),
@@ -188,7 +215,10 @@ pub fn check_columns<'a>(
             });
         }
     }
-    Ok(())
+    match seen.len() {
+        0..=MOST_COLUMNS => Ok(()),
+        columns => Err(Error::TooManyColumns { path: path.into(), columns }),
+    }
 }
 
 /// What a column of free errors is called in messages.
@@ -248,7 +278,8 @@ fn validate_weights(path: &Path, split: &'static str, rows: &Split) -> Result<()
 fn check_identifier(path: &Path, line: Option<usize>, name: &str) -> Result<(), Error> {
     let mut chars = name.chars();
     let starts = chars.next().is_some_and(|c| c.is_ascii_alphabetic() || c == '_');
-    if starts && chars.all(|c| c.is_ascii_alphanumeric() || c == '_') {
+    if starts && name.len() <= LONGEST_NAME && chars.all(|c| c.is_ascii_alphanumeric() || c == '_')
+    {
         return Ok(());
     }
     Err(Error::ColumnName {
@@ -264,6 +295,7 @@ fn repaired(name: &str) -> String {
     let words: Vec<&str> =
         name.split(|c: char| !c.is_ascii_alphanumeric()).filter(|word| !word.is_empty()).collect();
     let joined = words.join("_");
+    let joined: String = joined.chars().take(LONGEST_NAME / 2).collect();
     match joined.chars().next() {
         None => "value".into(),
         Some(first) if first.is_ascii_digit() => format!("_{joined}"),

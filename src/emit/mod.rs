@@ -49,6 +49,7 @@ pub use read::{
     MAX_SNIPPET, Precision, ReadBack, ReadError, Stated, StatedError, formula_line, read_back,
 };
 
+use crate::printable::is_hidden;
 use crate::program::{Names, Program};
 use crate::suggest::did_you_mean;
 use body::Syntaxes;
@@ -194,13 +195,13 @@ pub fn emit_half(language: Language, snippet: &Snippet, stay_single: &[usize]) -
     Some(written(Syntaxes { function: syntax, single, stay_single }, snippet))
 }
 
-/// The snippet as a function of JavaScript that returns an array of its outputs, for pages; it calls
-/// `f32`, which is to be `Math.fround`.
-///
-/// # Panics
-/// As [`emit`] does.
-pub fn javascript(snippet: &Snippet) -> String {
-    written(Syntaxes::one(&javascript::SYNTAX), snippet)
+/// The program as a function of JavaScript from its inputs to an array of its outputs, for pages; it
+/// calls `f32`, which is to be `Math.fround`. No name stands in it that comes from elsewhere.
+pub fn javascript(program: &Program) -> String {
+    let numbered = |letter: char, count| (0..count).map(move |i| format!("{letter}{i}"));
+    let names = Names::new(numbered('x', program.inputs), numbered('y', program.outputs.len()));
+    let snippet = Snippet { program, names: &names, function: "formula", header: &[] };
+    written(Syntaxes::one(&javascript::SYNTAX), &snippet)
 }
 
 /// The snippet as equations that browsers typeset, without its header.
@@ -219,9 +220,13 @@ fn written(syntaxes: Syntaxes, snippet: &Snippet) -> String {
     let function = function_name(function, names);
     let mut naming = Naming::new(syntax.reserved, &function, names);
     let signature = naming.signature();
-    let mut lines: Vec<String> =
-        header.iter().flat_map(|line| line.lines()).map(|line| comment(syntax, line)).collect();
-    lines.extend(naming.renamed().iter().map(|line| comment(syntax, line)));
+    let mut lines: Vec<String> = Vec::new();
+    // What has no comments would show them, or take them for its own.
+    if !syntax.comment.is_empty() {
+        let header = header.iter().flat_map(|line| line.lines());
+        lines.extend(header.map(|line| comment(syntax, line)));
+        lines.extend(naming.renamed().iter().map(|line| comment(syntax, line)));
+    }
     (syntax.open)(syntax, &signature, &mut lines);
     let statements = body::statements(syntaxes, program, &signature, &mut naming);
     lines.extend(statements.iter().map(|line| format!("    {line}")));
@@ -240,10 +245,9 @@ fn function_name(function: &str, names: &Names) -> String {
 }
 
 /// A comment of one line whatever `text` holds: more characters than `\n` end a line in WGSL,
-/// and a backslash at its end continues it in HLSL, GLSL and C.
+/// those that turn its direction show other code than is compiled, and a backslash at its end continues it in HLSL, GLSL and C.
 fn comment(syntax: &Syntax, text: &str) -> String {
-    let separator = |c: char| c.is_control() || c == '\u{2028}' || c == '\u{2029}';
-    let mut text = text.replace(separator, " ").trim_end().to_owned();
+    let mut text = text.replace(is_hidden, " ").trim_end().to_owned();
     if text.ends_with('\\') {
         text.push_str(" .");
     }

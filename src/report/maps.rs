@@ -5,8 +5,9 @@ use super::plot::text::Face;
 use super::plot::{PlotError, Theme};
 use super::raster::{Colour, Inks, Raster};
 use crate::dataset::{Dataset, Split};
+use crate::program::format_constant;
 
-/// By so much is a difference magnified.
+/// By so much is a difference's colour that of a smaller one on the values' scale.
 pub const DIFFERENCE_TIMES: f32 = 3.0;
 
 /// The plane of a grid's first two inputs: the middle of all others.
@@ -75,8 +76,9 @@ const BAR: usize = 44;
 /// Between the maps of two outputs.
 const APART: usize = 32;
 
-/// The maps as a PNG: for each output a row of values above a row of magnified differences, on one
-/// scale; outputs beside each other, two to a line.
+/// The maps as a PNG: for each output a row of values above a row of differences, each with its scale:
+/// that of differences ends where a [`DIFFERENCE_TIMES`]th of the values' range is; outputs beside each
+/// other, two to a line.
 ///
 /// # Errors
 /// Those of encoding.
@@ -108,7 +110,7 @@ fn block(
     let Some((truth, _)) = output.columns.split_last() else { return };
     let low = truth.iter().copied().fold(f32::INFINITY, f32::min);
     let high = truth.iter().copied().fold(f32::NEG_INFINITY, f32::max);
-    let span = (high - low).max(f32::MIN_POSITIVE);
+    let span = span(low, high);
     raster.write(&output.name, Face::bold(16.0), inks.ink, (left, top + 20), PANEL);
     let small = Face::regular(13.0);
     for (c, values) in output.columns.iter().enumerate() {
@@ -122,23 +124,33 @@ fn block(
         let below = (x, y + PANEL + GAP);
         if c + 1 < output.columns.len() {
             panel(raster, &maps.plane, below, |i| {
-                viridis(DIFFERENCE_TIMES * (values[i] - truth[i]).abs() / span)
+                difference_colour((values[i] - truth[i]).abs(), span)
             });
         } else {
-            let words = [
-                "left: |difference|".to_owned(),
-                format!("from the truth × {DIFFERENCE_TIMES},"),
-                "on the same scale".to_owned(),
-            ];
-            for (line, text) in words.iter().enumerate() {
-                raster.write(text, small, inks.faint, (below.0, below.1 + 18 + 18 * line), PANEL);
+            for (y, (words, ends)) in [18, 92].into_iter().zip(scales(low, high)) {
+                raster.write(words, small, inks.faint, (below.0, below.1 + y), PANEL);
+                bar(raster, (below.0, below.1 + y + 10), ends, inks);
             }
-            bar(raster, (below.0, below.1 + 84), [low, high], inks);
         }
     }
 }
 
-/// The scale, with its ends.
+/// What values are divided by.
+fn span(low: f32, high: f32) -> f32 {
+    (high - low).max(f32::MIN_POSITIVE)
+}
+
+fn difference_colour(difference: f32, span: f32) -> Colour {
+    viridis(DIFFERENCE_TIMES * difference / span)
+}
+
+/// What colours stand for, of values between two ends: themselves above, differences below.
+fn scales(low: f32, high: f32) -> [(&'static str, [f32; 2]); 2] {
+    let most = span(low, high) / DIFFERENCE_TIMES;
+    [("values", [low, high]), ("left: |difference| from the truth", [0.0, most])]
+}
+
+/// A scale of colours, with what its ends stand for.
 fn bar(raster: &mut Raster, (left, top): (usize, usize), [low, high]: [f32; 2], inks: &Inks) {
     for x in 0..PANEL {
         for y in 0..10 {
@@ -146,10 +158,17 @@ fn bar(raster: &mut Raster, (left, top): (usize, usize), [low, high]: [f32; 2], 
         }
     }
     let small = Face::regular(12.0);
-    let [low, high] = [low, high].map(|value| format!("{}", (value * 1000.0).round() / 1000.0));
+    let nothing = 1e-3 * (high - low);
+    let shown = |end: f32| if end.abs() < nothing { 0.0 } else { end };
+    let [low, high] = [low, high].map(|end| end_text(shown(end)));
     raster.write(&low, small, inks.faint, (left, top + 26), PANEL / 2);
     let right = left + PANEL - small.width(&high) as usize;
     raster.write(&high, small, inks.faint, (right, top + 26), PANEL / 2);
+}
+
+/// Three significant digits, without zeros at the end.
+fn end_text(value: f32) -> String {
+    format_constant(format!("{value:.2e}").parse().unwrap_or(value))
 }
 
 fn panel(
@@ -205,6 +224,36 @@ mod tests {
         let sliced = Plane::of(&split(vec![2, 2, 3])).unwrap();
         assert_eq!(sliced.rows, [1, 7, 4, 10]);
         assert!(Plane::of(&split(vec![9])).is_none() && Plane::of(&split(vec![])).is_none());
+    }
+
+    #[test]
+    fn ends_have_three_digits() {
+        for (value, expected) in [
+            (0.0, "0"),
+            (1.0, "1"),
+            (0.333_333_34, "0.333"),
+            (-1234.5, "-1230"),
+            (1.5e-7, "1.5e-7"),
+        ] {
+            assert_eq!(end_text(value), expected);
+        }
+    }
+
+    #[test]
+    fn the_scale_of_differences_ends_where_their_colours_do() {
+        for (low, high) in [(0.0, 1.0), (-3.0, 7.5), (1e-4, 2e-4)] {
+            let [(_, values), (_, differences)] = scales(low, high);
+            assert_eq!(values, [low, high]);
+            let colour = |share: f32| {
+                let at = differences[0] + share * (differences[1] - differences[0]);
+                difference_colour(at, span(low, high))
+            };
+            for share in [0.0, 0.25, 0.5, 1.0] {
+                let apart =
+                    std::iter::zip(colour(share), viridis(share)).map(|(a, b)| a.abs_diff(b));
+                assert!(apart.max() <= Some(1), "{share} of {low}..{high}");
+            }
+        }
     }
 
     #[test]

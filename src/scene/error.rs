@@ -1,6 +1,6 @@
-use crate::dataset;
+use crate::dataset::{self, NameFault};
 use crate::grammar::FileError;
-use crate::program::ParseError;
+use crate::program::{ParseError, shortest};
 use std::path::PathBuf;
 
 /// Why a scene cannot be used. `scene` is its name, `dataset` that of the dataset it was to be used on.
@@ -8,6 +8,8 @@ use std::path::PathBuf;
 pub enum Error {
     #[error(transparent)]
     File(#[from] FileError),
+    #[error("a scene or a tier of it cannot be called `{name}`: {fault}; call it otherwise")]
+    Name { name: String, fault: NameFault },
     #[error(
         "no scene is called `{name}`{hint} ({}; or give the path of a .ron file)",
         known_in(folder, known)
@@ -33,7 +35,7 @@ pub enum Error {
         "scene {scene}: the range of `{input}`, ({low}, {high}), is empty; give the lower end first, or a single value under `fixed`"
     )]
     EmptyRange { scene: String, input: String, low: f64, high: f64 },
-    #[error("scene {scene}: the {what} of `{input}`, ({low}, {high}), reaches beyond {dataset}, whose domain is [{}, {}]; stay within it, or generate or import data there", domain[0], domain[1])]
+    #[error("scene {scene}: the {what} of `{input}`, ({low}, {high}), reaches beyond {dataset}, whose domain is [{}, {}]; stay within it, or generate or import data there", shortest(domain[0]), shortest(domain[1]))]
     RangeOutside {
         scene: String,
         what: &'static str,
@@ -43,7 +45,7 @@ pub enum Error {
         dataset: String,
         domain: [f64; 2],
     },
-    #[error("scene {scene}: `{input}` is fixed at {value}, outside the domain of {dataset}, [{}, {}]; stay within it, or generate or import data there", domain[0], domain[1])]
+    #[error("scene {scene}: `{input}` is fixed at {value}, outside the domain of {dataset}, [{}, {}]; stay within it, or generate or import data there", shortest(domain[0]), shortest(domain[1]))]
     FixedOutside { scene: String, input: String, value: f64, dataset: String, domain: [f64; 2] },
     #[error(
         "scene {scene}: no row of the {split} split of {dataset} has `{input}` = {value}, and the rows are no grid to interpolate on (nearest: {nearest}); fix it at a value that occurs, or give a range"

@@ -53,7 +53,9 @@ pub use quantisation::Quantisation;
 pub use specialize::{Change, Specialization, Step, specialize};
 pub use view::View;
 
+use crate::dataset::{LARGEST_TEXT, check_name, check_text, read_text};
 use crate::grammar::{FileError, file};
+use crate::program::shortest;
 use crate::suggest::did_you_mean;
 use serde::{Deserialize, Serialize};
 use std::fmt::Write;
@@ -112,7 +114,9 @@ impl Scene {
         let given = Path::new(name_or_path);
         let folder = dataset.parent().unwrap_or(Path::new("")).join("scenes");
         let named = folder.join(name_or_path).with_extension("ron");
-        let is_name = given.extension().is_none() && !given.is_file();
+        // A folder here may be called as a scene is.
+        let exists = if named.is_file() { given.is_file() } else { given.exists() };
+        let is_name = given.extension().is_none() && !exists;
         let path = if is_name { named.as_path() } else { given };
         if is_name && !path.is_file() {
             let known = names_in(&folder);
@@ -123,7 +127,7 @@ impl Scene {
                 known: known.join(", "),
             });
         }
-        let text = std::fs::read_to_string(path).map_err(|reason| FileError::Unreadable {
+        let text = read_text(path, LARGEST_TEXT).map_err(|reason| FileError::Unreadable {
             kind: KIND,
             path: path.display().to_string(),
             reason,
@@ -152,16 +156,22 @@ impl Scene {
     /// What can be checked of it without a dataset.
     ///
     /// # Errors
-    /// A tier without limits, or with some that cannot be meant.
+    /// A name that is none; a tier without limits, or with some that cannot be meant.
     pub fn check(&self) -> Result<(), Error> {
+        self.check_names()?;
         self.check_tiers()
     }
 
     /// What the scene does to a dataset, in a line.
     pub fn summary(&self) -> String {
         let mut parts = Vec::new();
-        parts.extend(self.fixed.iter().map(|(name, value)| format!("{name} = {value}")));
-        let range = |(name, [low, high]): &(String, [f64; 2])| format!("{name} in [{low}, {high}]");
+        parts.extend(
+            self.fixed.iter().map(|(name, value)| format!("{name} = {}", shortest(*value))),
+        );
+        let range = |(name, ends): &(String, [f64; 2])| {
+            let [low, high] = ends.map(shortest);
+            format!("{name} in [{low}, {high}]")
+        };
         parts.extend(self.ranges.iter().map(range));
         parts.extend(self.outputs.iter().map(|(name, text)| format!("{name} = {text}")));
         parts.extend(self.histograms.iter().map(|histogram| {
@@ -186,6 +196,16 @@ impl Scene {
     pub fn max_cost(&self) -> Option<f64> {
         let costs: Option<Vec<f64>> = self.tiers.iter().map(|(_, tier)| tier.max_cost).collect();
         costs?.into_iter().reduce(f64::max)
+    }
+
+    /// It is part of the name of the dataset that it leaves, and so are tiers of tables.
+    fn check_names(&self) -> Result<(), Error> {
+        let named = |name: &str, fault| Error::Name { name: name.to_owned(), fault };
+        check_name(&self.name).map_err(|fault| named(&self.name, fault))?;
+        for tier in self.tiers.iter().map(|(tier, _)| tier) {
+            check_text(tier).map_err(|fault| named(tier, fault))?;
+        }
+        Ok(())
     }
 
     fn check_tiers(&self) -> Result<(), Error> {

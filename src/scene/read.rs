@@ -172,7 +172,12 @@ impl<'a> View<'a> {
         if self.outputs.is_empty() {
             for column in &self.whole.outputs {
                 let program = parse(&format!("{target} = {}", column.name), &over);
-                let program = program.expect("a column is an expression");
+                // With more fixed values than a program can read it is none.
+                let program = program.map_err(|error| Error::Expression {
+                    scene: scene.clone(),
+                    output: column.name.clone(),
+                    error,
+                })?;
                 self.outputs.push((column.name.clone(), program));
             }
         }

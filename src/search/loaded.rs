@@ -4,7 +4,7 @@
 use super::island::Island;
 use super::{FrontMember, Requirement, Run, Search, Settings};
 use crate::archive::Archive;
-use crate::dataset::check_columns;
+use crate::dataset::{check_columns, check_name};
 use crate::grammar::MAX_INSTRUCTIONS;
 use crate::program::Draft;
 use std::path::Path;
@@ -27,6 +27,7 @@ impl Run {
         if self.inputs.is_empty() || self.outputs.is_empty() {
             return Err("`inputs` and `outputs` must name at least one column each".into());
         }
+        check_name(&self.name).map_err(|fault| format!("`name` is {:?}: {fault}", self.name))?;
         check_columns(Path::new("columns"), self.inputs.iter().chain(&self.outputs))
             .map_err(|error| error.to_string())?;
         self.settings.check(self.inputs.len(), self.outputs.len())?;

@@ -10,7 +10,7 @@ use crate::grammar::{FileError, Grammar};
 use crate::program::{Names, parse};
 use crate::scene::Scene;
 use crate::stability::VerdictRecord;
-use serde::{Deserialize, Serialize};
+use serde::{Deserialize, Serialize, Serializer};
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
 
@@ -21,6 +21,7 @@ pub struct Run {
     pub version: String,
     /// The command line, its arguments as given.
     pub command: Vec<String>,
+    #[serde(serialize_with = "readable")]
     pub dataset: PathBuf,
     pub dataset_hash: String,
     /// What was needed of the dataset; none for all of it.
@@ -70,6 +71,11 @@ pub struct Run {
 pub struct Budget {
     pub seconds: Option<f64>,
     pub generations: Option<u64>,
+}
+
+/// A path as text; one that is none is not found again.
+fn readable<S: Serializer>(path: &Path, serializer: S) -> Result<S::Ok, S::Error> {
+    serializer.serialize_str(&path.to_string_lossy())
 }
 
 /// A run's folder that cannot be read or written.

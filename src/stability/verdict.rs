@@ -4,7 +4,7 @@ use super::{Bound, Claim, Limits, Rounding, Status, Stopped, prove_until};
 use crate::dataset::Column;
 use crate::num::{Interval, inside};
 use crate::op::Op;
-use crate::program::{Names, Program};
+use crate::program::{Names, Program, shortest};
 
 /// What a claim is part of.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
@@ -178,8 +178,8 @@ impl Finding {
         };
         match self.claim.bound {
             Bound::Finite => format!("{what} finite"),
-            Bound::AtLeast(low) => format!("{what} ≥ {low}"),
-            Bound::AtMost(high) => format!("{what} ≤ {high}"),
+            Bound::AtLeast(low) => format!("{what} ≥ {}", shortest(low)),
+            Bound::AtMost(high) => format!("{what} ≤ {}", shortest(high)),
         }
     }
 

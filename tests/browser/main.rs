@@ -1,13 +1,18 @@
 //! The page of a run in a real browser. Skipped, and said so, where there is no Chromium.
 
+mod hostile;
+
 use assert_cmd::Command;
+use base64::{Engine, prelude::BASE64_STANDARD};
 use serde_json::Value;
+use sha2::{Digest, Sha256};
 use std::path::Path;
 
 /// Put first in the page: what goes wrong later is noted.
 const WATCH: &str = "<script>
 window.problems = [];
 addEventListener('error', (event) => problems.push(event.message));
+addEventListener('securitypolicyviolation', (event) => problems.push(event.violatedDirective));
 addEventListener('unhandledrejection', (event) => problems.push(String(event.reason)));
 const report = console.error;
 console.error = (...all) => { problems.push(all.join(' ')); report(...all); };
@@ -33,6 +38,18 @@ fn chromium() -> Option<&'static str> {
         std::process::Command::new(name).arg("--version").output().is_ok_and(|o| o.status.success())
     };
     names.into_iter().find(there)
+}
+
+/// A page that is watched from its first line on, before its policy holds, and used by a script at its end,
+/// which its policy is made to allow.
+fn used(page: &str, script: &str) -> String {
+    let hash = BASE64_STANDARD.encode(Sha256::digest(script));
+    let used = page
+        .replacen("<head>", &format!("<head>{WATCH}"), 1)
+        .replacen("script-src ", &format!("script-src 'sha256-{hash}' "), 1)
+        .replacen("</body>", &format!("<script>{script}</script></body>"), 1);
+    assert!(used.contains(&hash), "the page has a policy");
+    used
 }
 
 /// The DOM of a page after its scripts ran, and what Chromium said on its console.
@@ -94,11 +111,7 @@ fn a_reader_can_choose_look_and_copy() {
     let here = folder.path().to_str().unwrap();
     lgp(&["report", here]);
     let page = std::fs::read_to_string(folder.path().join("report.html")).unwrap();
-    let used = page.replacen("<head>", &format!("<head>{WATCH}"), 1).replacen(
-        "</body>",
-        &format!("<script>{}{USE}</script></body>", settings()),
-        1,
-    );
+    let used = used(&page, &(settings() + USE));
     let path = folder.path().join("used.html");
     std::fs::write(&path, used).unwrap();
     for width in [1400, 420] {
@@ -146,11 +159,7 @@ fn a_comparison_draws_fronts_and_traces() {
     let runs = ["results/dfg", "results/dfg"];
     lgp(&["report", runs[0], runs[1], "--output", path.to_str().unwrap()]);
     let page = std::fs::read_to_string(&path).unwrap();
-    let used = page.replacen("<head>", &format!("<head>{WATCH}"), 1).replacen(
-        "</body>",
-        &format!("<script>{COMPARED}</script></body>"),
-        1,
-    );
+    let used = used(&page, COMPARED);
     std::fs::write(&path, used).unwrap();
     for width in [1400, 420] {
         let (dom, console) = dom(browser, &path, width);

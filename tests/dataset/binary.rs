@@ -1,7 +1,7 @@
 //! The `.bin` file.
 
 use crate::sample;
-use lgp::dataset::{Column, Dataset, Error, Split};
+use lgp::dataset::{Column, Dataset, Error, Split, check_name, check_text};
 use proptest::prelude::*;
 use std::path::{Path, PathBuf};
 
@@ -171,28 +171,28 @@ fn split(columns: usize) -> impl Strategy<Value = Split> {
 }
 
 fn datasets() -> impl Strategy<Value = Dataset> {
-    (1usize..4, 1usize..4, any::<String>(), any::<String>()).prop_flat_map(
-        |(inputs, outputs, name, unit)| {
-            let columns = inputs + outputs;
-            (split(columns), split(columns), -1e9..0.0, 0.0..1e9).prop_map(
-                move |(search, validation, low, high)| {
-                    let described = |index: usize| Column {
-                        name: format!("column_{index}"),
-                        unit: unit.clone(),
-                        domain: [low, high],
-                    };
-                    Dataset {
-                        name: name.clone(),
-                        recipe: format!("({name:?})"),
-                        inputs: (0..inputs).map(described).collect(),
-                        outputs: (inputs..columns).map(described).collect(),
-                        search,
-                        validation,
-                    }
-                },
-            )
-        },
-    )
+    let names = any::<String>().prop_filter("a name", |name| check_name(name).is_ok());
+    let units = any::<String>().prop_filter("a unit", |unit| check_text(unit).is_ok());
+    (1usize..4, 1usize..4, names, units).prop_flat_map(|(inputs, outputs, name, unit)| {
+        let columns = inputs + outputs;
+        (split(columns), split(columns), -1e9..0.0, 0.0..1e9).prop_map(
+            move |(search, validation, low, high)| {
+                let described = |index: usize| Column {
+                    name: format!("column_{index}"),
+                    unit: unit.clone(),
+                    domain: [low, high],
+                };
+                Dataset {
+                    name: name.clone(),
+                    recipe: format!("({name:?})"),
+                    inputs: (0..inputs).map(described).collect(),
+                    outputs: (inputs..columns).map(described).collect(),
+                    search,
+                    validation,
+                }
+            },
+        )
+    })
 }
 
 proptest! {

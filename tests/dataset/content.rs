@@ -1,7 +1,7 @@
 //! What a dataset must be, and choosing some of its columns.
 
 use crate::{names, sample, strings};
-use lgp::dataset::{Dataset, Error, Split};
+use lgp::dataset::{Dataset, Error, MOST_COLUMNS, NameFault, Split};
 
 #[test]
 fn weights_default_to_one() {
@@ -14,7 +14,7 @@ fn weights_default_to_one() {
 #[test]
 fn validate_names_each_defect() {
     type Case = (fn(&mut Dataset), fn(&Error) -> bool);
-    let cases: [Case; 17] = [
+    let cases: [Case; 25] = [
         (|d| d.inputs.clear(), |e| matches!(e, Error::NoInputs { .. })),
         (|d| d.outputs.clear(), |e| matches!(e, Error::NoOutputs { .. })),
         (
@@ -36,6 +36,26 @@ fn validate_names_each_defect() {
         ),
         (|d| d.inputs[1].domain = [1.0, 0.0], |e| matches!(e, Error::Domain { .. })),
         (|d| d.inputs[1].domain[1] = f64::NAN, |e| matches!(e, Error::Domain { .. })),
+        (|d| d.inputs[1].domain[1] = 1e300, |e| matches!(e, Error::Domain { .. })),
+        (|d| d.outputs[0].domain = [-3.5e38, 0.0], |e| matches!(e, Error::Domain { .. })),
+        (
+            |d| d.name = "../../x".into(),
+            |e| matches!(e, Error::Name { fault: NameFault::Path, .. }),
+        ),
+        (|d| d.name = "a\nb".into(), |e| matches!(e, Error::Name { fault: NameFault::Hidden, .. })),
+        (
+            |d| d.inputs[0].unit = "\u{1b}[31m".into(),
+            |e| matches!(e, Error::Unit { column, fault: NameFault::Hidden, .. } if column == "n_dot_v"),
+        ),
+        (
+            |d| d.outputs[1].unit = "x".repeat(1000),
+            |e| matches!(e, Error::Unit { fault: NameFault::Long, .. }),
+        ),
+        (|d| d.inputs[0].name = "x".repeat(1000), |e| matches!(e, Error::ColumnName { .. })),
+        (
+            |d| d.inputs = (0..MOST_COLUMNS).map(|i| crate::column(&format!("x{i}"))).collect(),
+            |e| matches!(e, Error::TooManyColumns { columns, .. } if *columns == MOST_COLUMNS + 2),
+        ),
         (
             |d| d.validation.columns.truncate(3),
             |e| matches!(e, Error::ColumnCount { split: "validation", found: 3, expected: 4, .. }),

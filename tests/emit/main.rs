@@ -12,7 +12,7 @@ mod tools;
 #[path = "../vulkan/mod.rs"]
 mod vulkan;
 
-use lgp::emit::{Language, Snippet, emit, emit_half, read_back};
+use lgp::emit::{Language, Snippet, emit, emit_half, javascript, mathml, read_back};
 use lgp::op::Op;
 use lgp::program::{Names, Program, parse};
 use programs::EVERY_OPERATION;
@@ -135,17 +135,34 @@ fn constants_that_are_not_finite_are_written_as_bits() {
 fn a_header_cannot_leave_its_comment() {
     let names = Names::new(["x"], ["y"]);
     let program = parse("y = x", &names).unwrap();
-    let nasty = ["a\nb\r\nc\rd", "e\u{85}f\u{2028}g\u{b}h", "C:\\", "C:\\ \\  ", "", "\n", "*/ \0"];
+    let nasty =
+        ["a\nb\r\nc\rd", "e\u{85}f\u{2028}g\u{b}h", "C:\\", "C:\\ \\  ", "", "\n", "\u{202e}*/ \0"];
     let header = nasty.map(str::to_owned);
     for &language in Language::SHADING {
         let code = text(language, &program, &names, "f", &header);
         let (comments, function) = code.split_at(code.find("f_y").unwrap());
         let comments = &comments[..comments.rfind('\n').unwrap()];
+        assert!(!code.contains('\u{202e}'), "what is shown is what is compiled");
         for line in comments.split(['\n', '\r', '\u{85}', '\u{2028}', '\u{b}', '\0']) {
             assert!(line.starts_with("//") && !line.ends_with(['\\', ' ']), "{line:?}");
         }
         assert_eq!(function.lines().count(), 4);
         assert!(read_back(language, &code).is_ok());
+    }
+}
+
+#[test]
+fn no_name_stands_in_what_a_page_takes_for_script_or_elements() {
+    let hostile =
+        "</script><script>alert(1)</script><img src=x onerror='alert(2)'>\n*/ alert(3) //";
+    let over = Names::new(["a", "b"], ["y", "z"]);
+    let program = parse("y = a*b; z = y + a", &over).unwrap();
+    let names = Names::new([hostile, "b"], [&format!("{hostile} y"), "z"]);
+    let header = [hostile.to_owned()];
+    let snippet = Snippet { program: &program, names: &names, function: hostile, header: &header };
+    for text in [javascript(&program), mathml(&snippet)] {
+        let harmful = ["alert(", "<script", "<img", "</script", "//", "*/"];
+        assert!(!harmful.iter().any(|harm| text.contains(harm)), "{text}");
     }
 }
 

@@ -145,7 +145,7 @@ impl Priced<'_> {
             header: Vec::new(),
             code: Vec::new(),
             mathml: emit::mathml(&snippet),
-            script: emit::javascript(&snippet),
+            script: emit::javascript(program),
         }
     }
 }

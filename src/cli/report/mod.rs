@@ -42,6 +42,7 @@ pub struct Args {
 
 #[derive(Serialize)]
 struct Written {
+    #[serde(serialize_with = "crate::cli::output::readable")]
     page: PathBuf,
     bytes: usize,
 }
@@ -141,9 +142,9 @@ fn gather(folder: &Path, elsewhere: Option<&Path>, common: &Common) -> Result<Ga
             return Err(Failure::new(Exit::Input, anyhow::Error::msg(problem)));
         }
         Err(problem) => {
-            if !common.quiet {
-                eprintln!("{problem}\nthe page has no maps; --dataset says where the data are");
-            }
+            common.note(&format!(
+                "{problem}\nthe page has no maps; --dataset says where the data are"
+            ));
             None
         }
     };

@@ -3,6 +3,7 @@
 
 use super::{Gathered, write_file};
 use crate::cli::{Exit, Failure};
+use crate::dataset::{LARGEST_TEXT, read_text};
 use crate::eval::{Evaluator, Isa, Samples, Tape};
 use crate::program::Program;
 use crate::search::RecordError;
@@ -80,7 +81,7 @@ pub(super) fn load(folder: &Path) -> Result<Vec<Timing>, Failure> {
     if !path.exists() {
         return Ok(Vec::new());
     }
-    let text = std::fs::read_to_string(&path)
+    let text = read_text(&path, LARGEST_TEXT)
         .map_err(|reason| RecordError::Unreadable { path: path.clone(), reason })?;
     let damaged = |error: serde_json::Error| RecordError::Damaged {
         path,

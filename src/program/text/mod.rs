@@ -17,7 +17,7 @@ pub(crate) use excerpt::{place, plain, pointed};
 pub use parse::{
     FreeConstant, MAX_FORMULA, ParseError, Parsed, Scope, parse, parse_open, parse_template,
 };
-pub use print::{format_constant, print, print_expression};
+pub use print::{format_constant, print, print_expression, shortest};
 
 use serde::{Deserialize, Serialize};
 

@@ -67,6 +67,23 @@ pub fn format_constant(value: f32) -> String {
     if scientific.len() + 2 < plain.len() { scientific } else { plain }
 }
 
+/// The shortest decimal that reads back as `value`: as an `f32` where it is one, else as an `f64`.
+///
+/// ```
+/// use lgp::program::shortest;
+/// assert_eq!(shortest(f64::from(0.1f32)), "0.1");
+/// assert_eq!(shortest(0.1), "0.1");
+/// assert_eq!(shortest(1e30), "1e30");
+/// ```
+pub fn shortest(value: f64) -> String {
+    let narrow = value as f32;
+    if f64::from(narrow) == value {
+        return format_constant(narrow);
+    }
+    let (plain, scientific) = (format!("{value}"), format!("{value:e}"));
+    if scientific.len() + 2 < plain.len() { scientific } else { plain }
+}
+
 /// How a reader of a value writes it.
 #[derive(Clone)]
 struct Text {

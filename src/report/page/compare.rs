@@ -1,6 +1,7 @@
 //! Runs of one dataset beside each other.
 
-use super::{STYLE, Trace, rendered, within_script};
+use super::{Trace, own, rendered, within_script};
+use crate::printable::printable;
 use minijinja::{Value, context};
 use serde::Serialize;
 
@@ -52,11 +53,10 @@ pub fn comparison(comparison: &Comparison) -> String {
     rendered(
         TEMPLATE,
         context! {
-            title => &comparison.title,
-            subtitle => &comparison.subtitle,
-            style => safe(STYLE.to_owned()),
+            title => printable(&comparison.title),
+            subtitle => printable(&comparison.subtitle),
             data => safe(within_script(&data)),
-            script => safe(SCRIPTS.concat()),
+            ..own(&SCRIPTS.concat())
         },
     )
 }

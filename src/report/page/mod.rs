@@ -6,6 +6,7 @@
 
 mod compare;
 mod lookup;
+mod policy;
 mod samples;
 mod spheres;
 mod trace;
@@ -16,7 +17,10 @@ pub use samples::Table;
 pub use spheres::PageSpheres;
 pub use trace::Trace;
 
+use policy::own;
+
 use crate::dataset::Column;
+use crate::printable::{is_hidden, printable, printable_lines};
 use minijinja::{Environment, Value, context};
 use serde::Serialize;
 
@@ -140,17 +144,18 @@ const SCRIPTS: [&str; 10] = [
 pub fn html(page: &Page) -> String {
     let data = serde_json::to_string(page).expect("plain data");
     let safe = Value::from_safe_string;
-    let facts = page.facts.iter().map(|(name, value)| vec![name.clone(), value.clone()]);
+    let facts = page
+        .facts
+        .iter()
+        .map(|(name, value)| vec![name.clone(), printable_lines(value).into_owned()]);
     rendered(
         TEMPLATE,
         context! {
-            title => &page.title,
-            command => &page.command,
+            title => printable(&page.title),
+            command => printable(&page.command),
             facts => facts.collect::<Vec<_>>(),
-            style => safe(STYLE.to_owned()),
             data => safe(within_script(&data)),
-            functions => safe(functions(page)),
-            script => safe(SCRIPTS.concat()),
+            ..own(&format!("{}\n{}", functions(page), SCRIPTS.concat()))
         },
     )
 }
@@ -162,9 +167,17 @@ fn rendered(template: &str, values: Value) -> String {
     template.render(values).expect("the templates only write what they are given")
 }
 
-/// JSON in which nothing ends a `<script>`.
+/// JSON in which nothing ends a `<script>`, and hidden characters are seen.
 fn within_script(json: &str) -> String {
-    json.replace('<', "\\u003c").replace('\u{2028}', "\\u2028").replace('\u{2029}', "\\u2029")
+    let mut text = String::with_capacity(json.len());
+    for character in json.chars() {
+        match character {
+            '<' => text += "\\u003c",
+            hidden if is_hidden(hidden) => text += &format!("\\\\u{{{:x}}}", u32::from(hidden)),
+            other => text.push(other),
+        }
+    }
+    text
 }
 
 /// An array of functions for each front, and one for the published formulas.

@@ -1,5 +1,6 @@
 //! The typeface of plots: widths of text, and its pixels.
 
+use crate::printable::is_hidden;
 use ab_glyph::{Font, FontRef, Glyph, PxScale, ScaleFont, point};
 use std::sync::LazyLock;
 
@@ -91,11 +92,10 @@ impl Face {
     }
 }
 
-/// XML knows no control characters.
+/// XML knows no control characters, and others turn the text around them.
 fn printable(character: char) -> char {
     match character {
-        '\u{fffe}' | '\u{ffff}' => '\u{fffd}',
-        control if control.is_control() => ' ',
+        hidden if is_hidden(hidden) => ' ',
         other => other,
     }
 }

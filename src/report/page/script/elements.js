@@ -8,6 +8,8 @@ function element(space, tag, attributes, children) {
   for (const [name, value] of Object.entries(attributes)) {
     if (typeof value === "function") made.addEventListener(name, value);
     else if (value === true) made.setAttribute(name, "");
+    // The page's policy takes styles from its own script alone.
+    else if (name === "style") made.style.cssText = value;
     else if (value !== false && value !== null && value !== undefined) made.setAttribute(name, value);
   }
   made.append(...children.flat().filter((child) => child !== null && child !== undefined));

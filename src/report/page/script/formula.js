@@ -58,7 +58,9 @@ function errorTable(one) {
 /** Where this page lies, as one would type it. */
 function folder() {
   const parts = decodeURIComponent(location.pathname).split("/").slice(0, -1).filter(Boolean);
-  return location.protocol === "file:" && parts.length ? parts.slice(-2).join("/") : "DIR";
+  if (location.protocol !== "file:" || !parts.length) return "DIR";
+  const typed = parts.slice(-2).join("/");
+  return /^[\w./=,:+@%-]+$/.test(typed) ? typed : `'${typed.replaceAll("'", String.raw`'\''`)}'`;
 }
 
 const COLUMNS = [
