@@ -46,6 +46,7 @@ fn written() -> Vec<u8> {
     search.enumerate(&problem, 1.0, 4000);
     search.advance(&problem);
     let run = Run {
+        name: data.name.clone(),
         inputs: data.inputs.clone(),
         outputs: data.outputs.clone(),
         settings: search.settings().clone(),

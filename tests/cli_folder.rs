@@ -256,7 +256,7 @@ fn what_cannot_be_found_is_said() {
         succeed(here, &[&polynomial[..], &["--guess", "z = tan(x)", "--out", "g"]].concat());
     assert!(text(&guess.stderr).contains("the grammar polynomial has no `tan`"));
 
-    let narrow = ["--require", "range=5..6", "--max-cost", "0", "--out", "none"];
+    let narrow = ["--require", "uses=exp2", "--max-cost", "0", "--out", "none"];
     let output = lgp(here, &[&SHORT[..], &narrow].concat());
     let message = text(&output.stderr);
     assert_eq!(output.status.code(), Some(4), "{message}");

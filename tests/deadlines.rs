@@ -61,7 +61,7 @@ fn a_generation_that_is_paused_goes_on_as_if_it_never_stopped() {
         (0..4).for_each(|_| whole.advance(&problem));
         let mut paused = Search::new(settings.clone());
         let (inputs, outputs) = (data.inputs.clone(), data.outputs.clone());
-        let run = Run { inputs, outputs, settings, ..Run::default() };
+        let run = Run { name: data.name.clone(), inputs, outputs, settings, ..Run::default() };
         let mut pauses = 0;
         while paused.generation() < 4 {
             // At first next to nothing is done; so that it ends on any machine, more and more.

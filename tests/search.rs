@@ -226,7 +226,7 @@ fn goes_on_as_if_never_stopped(settings: Settings) {
         search.advance(&problem);
     }
     let (inputs, outputs) = (data.inputs.clone(), data.outputs.clone());
-    let run = Run { inputs, outputs, settings, ..Run::default() };
+    let run = Run { name: "dfg".into(), inputs, outputs, settings, ..Run::default() };
     let checkpoint =
         Checkpoint { run, search: search.clone(), trace: String::new(), census: Census::default() };
     let bytes = checkpoint.to_bytes();

@@ -79,16 +79,17 @@ impl Profile {
     /// different ones, since they may be fitted apart.
     pub fn cycles(&self, draft: &Draft, scratch: &mut CostScratch) -> f64 {
         if Simplifier::is_folded(draft) {
-            return self.cycles_of_folded(draft, scratch);
+            return self.cycles_as_written(draft, scratch);
         }
         let mut folded = std::mem::take(&mut scratch.folded);
         scratch.simplifier.fold_constants(draft, &mut folded);
-        let cycles = self.cycles_of_folded(&folded, scratch);
+        let cycles = self.cycles_as_written(&folded, scratch);
         scratch.folded = folded;
         cycles
     }
 
-    fn cycles_of_folded(&self, draft: &Draft, scratch: &mut CostScratch) -> f64 {
+    /// The cycles of a draft's effective code with nothing folded, whatever its constants happen to be.
+    pub fn cycles_as_written(&self, draft: &Draft, scratch: &mut CostScratch) -> f64 {
         let weighted = |(share, chip): &(f64, Chip)| {
             find_forms(draft, &chip.merges, scratch);
             share * busiest(&slots(draft, chip, scratch))

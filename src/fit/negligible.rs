@@ -27,6 +27,9 @@ pub fn drop_negligible(
     let mut comparison = Comparison::by_squares(samples);
     let limit = comparison.error(fitter, program) * (1.0 + allowance);
     drop_within(limit, program, |trial| {
+        if fitter.is_cut(samples) {
+            return f64::INFINITY;
+        }
         let error = comparison.error(fitter, trial);
         if error > limit && error < limit * NEAR {
             fitter.fit(trial, comparison.samples(), MAKE_UP);
@@ -48,7 +51,10 @@ pub fn drop_negligible_minimax(
 ) {
     let mut comparison = Comparison::by_maximum(samples);
     let limit = comparison.error(fitter, program) * (1.0 + allowance);
-    drop_within(limit, program, |trial| comparison.error(fitter, trial));
+    drop_within(limit, program, |trial| match fitter.is_cut(samples) {
+        true => f64::INFINITY,
+        false => comparison.error(fitter, trial),
+    });
 }
 
 fn drop_within(limit: f64, program: &mut Draft, mut error: impl FnMut(&mut Draft) -> f64) {

@@ -236,12 +236,16 @@ impl<'a> Problem<'a> {
         draft: &'d Draft,
         scratch: &mut CostScratch,
     ) -> (Cow<'d, Draft>, f64) {
-        let mut cost =
-            |draft: &Draft| self.profile.cycles(draft, scratch) + self.grammar.penalty(draft);
-        let Some(scales) = &self.scales else { return (Cow::Borrowed(draft), cost(draft)) };
+        let Some(scales) = &self.scales else {
+            let cost = self.profile.cycles(draft, scratch) + self.grammar.penalty(draft);
+            return (Cow::Borrowed(draft), cost);
+        };
         let [first, in_constants] =
             [Placement::First, Placement::Constants].map(|place| scales.natural(draft, place));
-        let costs = [cost(&first), cost(&in_constants)];
+        // What folds in these units alone, constants that are none or one here by chance, is no gain yet.
+        let costs = [&first, &in_constants].map(|draft| {
+            self.profile.cycles_as_written(draft, scratch) + self.grammar.penalty(draft)
+        });
         match costs[0] < costs[1] {
             true => (Cow::Owned(first), costs[0]),
             false => (Cow::Owned(in_constants), costs[1]),
