@@ -6,6 +6,7 @@
 //! absolute up to local minima of the fits, and up to what simplification makes unreachable by single
 //! insertions.
 
+use super::polish::reads_only_constants;
 use super::vary::{insertion_count, insertions, random_constant};
 use super::{Problem, Search, near_the_least};
 use crate::archive::Member;
@@ -185,6 +186,10 @@ fn grown(draft: &Draft, problem: &Problem, cost: f64) -> Vec<(u64, Draft)> {
     let mut grown = Vec::new();
     insertions(draft, problem.grammar, &mut |child| {
         simplifier.simplify(child, &mut simple);
+        // An infinite constant is free to a compiler: there would be no end of formulas with one.
+        if reads_only_constants(&simple) {
+            return;
+        }
         let affordable = problem.cost(&simple, &mut scratch) <= cost;
         let short = simple.instrs.len() <= problem.grammar.max_instructions;
         let hash = hash(&simple);
@@ -281,5 +286,20 @@ mod tests {
         search.enumerate(&problem, 1.0, all.len());
         assert!(search.archive().best_loss(1.0) < 1e-12);
         assert_eq!(search.enumeration().map(|e| e.structures), Some(all.len()));
+    }
+
+    /// Two outputs, with a difference of equal values that may become a divisor: still few.
+    #[test]
+    fn infinite_constants_make_no_structures() {
+        let (mut data, gpu) = (line(), Profile::find("gcn").unwrap());
+        let other = Column { name: "z".into(), ..data.outputs[0].clone() };
+        data.outputs.push(other);
+        for split in [&mut data.search, &mut data.validation] {
+            split.columns.push(split.columns[1].clone());
+        }
+        let grammar = Grammar::find("shader").unwrap();
+        let problem = Problem::new(&data, &grammar, &gpu, &Settings::default());
+        let all = structures(&problem, 1.0, 3000, &Deadline::NEVER).unwrap();
+        assert!(all.len() > 1000 && !all.iter().any(reads_only_constants), "{}", all.len());
     }
 }

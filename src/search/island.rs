@@ -1,5 +1,6 @@
 //! An island: a population, and the life of a candidate on it.
 
+use super::polish::reads_only_constants;
 use super::population::{Individual, Population};
 use super::vary::{Rates, Variation, random_draft};
 use super::{Counts, Fate, Problem, Settings};
@@ -337,7 +338,8 @@ impl Workshop {
         if !is_written_in(candidate, problem) {
             simplifier.fold_constants(child, candidate);
         }
-        let constants_are_finite = candidate.consts.iter().all(|c| c.is_finite());
+        let constants_are_finite =
+            candidate.consts.iter().all(|c| c.is_finite()) && !reads_only_constants(candidate);
         if candidate.instrs.len() > problem.grammar.max_instructions || !constants_are_finite {
             return Err(Fate::TooLong);
         }

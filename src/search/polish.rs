@@ -115,9 +115,9 @@ fn finished(
 
 /// Whether an operation reads constants alone: where it cannot be folded, it has no finite value, such as a
 /// quotient by a constant that has become zero.
-fn reads_only_constants(program: &Program) -> bool {
+pub(super) fn reads_only_constants(draft: &Draft) -> bool {
     let is_constant = |arg: &Arg| matches!(arg, Arg::Const(_));
-    program.instrs.iter().any(|instr| instr.args().iter().all(is_constant))
+    draft.instrs.iter().any(|instr| instr.args().iter().all(is_constant))
 }
 
 /// The formula with the absolute value of what roots, logarithms and powers are taken of: between
