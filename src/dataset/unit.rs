@@ -19,7 +19,7 @@ pub fn unit(column: &Column) -> f64 {
     largest.log2().ceil().exp2()
 }
 
-/// [`unit`] of each output.
+/// [`unit()`] of each output.
 pub fn output_units(outputs: &[Column]) -> Vec<f64> {
     outputs.iter().map(unit).collect()
 }
