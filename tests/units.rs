@@ -185,3 +185,34 @@ fn a_law_in_large_units_has_no_constant() {
     );
     assert!(product.program.consts.is_empty(), "{}", product.formula);
 }
+
+/// Laws have the constants that they have in their own units, not what scaling makes of them.
+#[test]
+fn laws_keep_short_constants_in_any_unit() {
+    type Law = fn(f32) -> f32;
+    let laws: [(Law, Law, &[f32]); 4] = [
+        (|x| 380.0 + 450.0 * x, |x| 2.5 * x - 0.75, &[0.75, 2.5]),
+        (|x| 1000.0 * x, |x| 0.002 * x * x + 7.0, &[0.002, 7.0]),
+        (|x| x, |x| 3e-6 * x * x + 1e-6 * x, &[1e-6, 3e-6]),
+        (|x| 1e6 * (x + 0.02), |x| x * (1e-6 * x), &[1e-6]),
+    ];
+    for (input, law, constants) in laws {
+        let data = dataset("law", |_, _| vec![0.0], |x, z| [input(x), z], |_, _| 0.0);
+        let mut data = Dataset { outputs: data.outputs.clone(), ..data };
+        for split in [&mut data.search, &mut data.validation] {
+            split.columns[2] = split.columns[0].iter().map(|&x| law(x)).collect();
+        }
+        let ends = [f64::INFINITY, f64::NEG_INFINITY];
+        data.outputs[0].domain = data.search.columns[2]
+            .iter()
+            .fold(ends, |[low, high], &y| [low.min(y.into()), high.max(y.into())]);
+        let found = front(&data, 10);
+        let read = |one: &lgp::search::FrontMember| {
+            let mut constants: Vec<f32> = one.program.consts.iter().map(|c| c.abs()).collect();
+            constants.sort_by(f32::total_cmp);
+            constants
+        };
+        let formulas: Vec<&str> = found.members.iter().map(|one| one.formula.as_str()).collect();
+        assert!(found.members.iter().any(|one| read(one) == constants), "{formulas:?}");
+    }
+}

@@ -7,31 +7,24 @@ use lgp::fit::Measure;
 use lgp::search::{Front, Run};
 use lgp::stability::Questions;
 use libfuzzer_sys::fuzz_target;
-use std::sync::LazyLock;
-use tempfile::TempDir;
-
-static FOLDER: LazyLock<TempDir> = LazyLock::new(|| {
-    let memory = std::path::Path::new("/dev/shm");
-    let folder = if memory.is_dir() { TempDir::new_in(memory) } else { TempDir::new() };
-    folder.expect("a folder can be made")
-});
+use std::path::Path;
 
 fuzz_target!(|content: &[u8]| {
     let Some(middle) = content.iter().position(|&byte| byte == 0) else { return };
-    let folder = FOLDER.path();
-    std::fs::write(folder.join("run.ron"), &content[..middle]).expect("there is room");
-    std::fs::write(folder.join("front.json"), &content[middle + 1..]).expect("there is room");
-    let Ok(run) = Run::load(folder) else { return };
-    run.save(folder).expect("there is room");
-    let again = Run::load(folder).expect("what was written can be read");
+    let text = |bytes| std::str::from_utf8(bytes).ok();
+    let (Some(ron), Some(json)) = (text(&content[..middle]), text(&content[middle + 1..])) else {
+        return;
+    };
+    let Ok(run) = Run::from_ron(ron) else { return };
+    let again = Run::from_ron(&run.to_ron()).expect("what was written can be read");
     assert_eq!(format!("{again:?}"), format!("{run:?}"));
     let names = run.names();
-    let _ = run.requirements();
-    let Ok(front) = Front::load(&folder.join("front.json"), &names, Measure::Rmse) else { return };
-    let json = front.to_json(&names);
-    std::fs::write(folder.join("front.json"), &json).expect("there is room");
-    let again = Front::load(&folder.join("front.json"), &names, Measure::Rmse);
-    assert_eq!(again.expect("what was written can be read").to_json(&names), json);
+    let _ = (run.requirements(), run.grammar(), run.profile());
+    let path = Path::new("front.json");
+    let Ok(front) = Front::parse(path, json, &run, Measure::Rmse) else { return };
+    let written = front.to_json(&names);
+    let again = Front::parse(path, &written, &run, Measure::Rmse);
+    assert_eq!(again.expect("what was written can be read").to_json(&names), written);
     let _ = front.knee();
     let questions = Questions::of(&run.inputs, &run.outputs);
     for member in &front.members {

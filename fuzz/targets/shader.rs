@@ -2,7 +2,7 @@
 //! language, and read again is the same function.
 #![no_main]
 
-use lgp::emit::{Language, Snippet, emit, read_back};
+use lgp::emit::{Language, ReadBack, Snippet, emit, read_back};
 use libfuzzer_sys::fuzz_target;
 
 const VALUES: [f32; 6] = [0.0, 1.0, -1.5, 0.3, 7.25, 1e20];
@@ -11,11 +11,12 @@ fuzz_target!(|content: &[u8]| {
     let Some((first, rest)) = content.split_first() else { return };
     let Ok(text) = std::str::from_utf8(rest) else { return };
     let language = Language::SHADING[usize::from(*first) % Language::SHADING.len()];
-    let Ok((program, names)) = read_back(language, text) else { return };
+    let Ok(ReadBack { program, names, .. }) = read_back(language, text) else { return };
     let snippet = Snippet { program: &program, names: &names, function: "f", header: &[] };
     let written = emit(language, &snippet);
-    let (again, _) = read_back(language, &written)
-        .unwrap_or_else(|error| panic!("what was written can be read: {error}\n{written}"));
+    let again = read_back(language, &written)
+        .unwrap_or_else(|error| panic!("what was written can be read: {error}\n{written}"))
+        .program;
     assert_eq!((again.inputs, again.outputs.len()), (program.inputs, program.outputs.len()));
     for shift in 0..VALUES.len() {
         let inputs: Vec<f32> =

@@ -79,11 +79,14 @@ impl<'a> Naming<'a> {
     }
 
     fn rename(&mut self, name: &str) -> String {
-        let base = plain(name);
-        let first = format!("{base}_");
-        let mut candidates = [base.clone(), first]
-            .into_iter()
-            .chain((2u32..).map(|number| format!("{base}_{number}")));
+        let mut base = plain(name);
+        // All that begins like that may be reserved; nothing that begins with `x_` is.
+        if (self.reserved)(&format!("{base}_2")) {
+            base = format!("x_{base}");
+        }
+        let first = [base.clone(), format!("{base}_")];
+        let mut candidates =
+            first.into_iter().chain((2u32..).map(|number| format!("{base}_{number}")));
         candidates.find(|candidate| self.keep(candidate)).expect("some number is free")
     }
 }
@@ -121,6 +124,13 @@ mod tests {
         ] {
             assert_eq!(plain(name), expected);
         }
+    }
+
+    #[test]
+    fn what_is_reserved_by_its_beginning_is_renamed() {
+        let names = Names::new(["gl_", "gl__", "gl_2"], ["gl"]);
+        let naming = Naming::new(|name| name.starts_with("gl_"), "gl", &names);
+        assert_eq!(naming.written, ["gl", "x_gl", "x_gl_", "x_gl_2", "x_gl_3"]);
     }
 
     #[test]

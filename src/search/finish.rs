@@ -1,7 +1,7 @@
 //! What follows a search: its formulas polished and judged, the most valuable first, as long as there is
 //! time.
 
-use super::polish::{as_found, polish, promising};
+use super::polish::{as_found, laws_in_their_units, polish, promising};
 use super::rounding::beyond_rounding;
 use super::{Front, FrontMember, Problem, Search};
 use crate::archive::Member;
@@ -107,7 +107,8 @@ impl Front {
         measure: Measure,
     ) -> Front {
         let most = search.settings().max_cost;
-        let members = members.filter(|member| member.cost <= most).collect();
+        let members = members.filter(|member| member.cost <= most);
+        let members = laws_in_their_units(members.collect(), problem, measure);
         Front::from_members(beyond_rounding(members, problem, measure), measure)
     }
 }

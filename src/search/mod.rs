@@ -193,6 +193,12 @@ impl<'a> Problem<'a> {
         self.checks.samples(&self.searched, measure, &rows)
     }
 
+    /// The same over the dataset's columns.
+    fn all_as_given(&self, measure: Measure) -> Samples {
+        let rows: Vec<u32> = (0..self.dataset.search.rows() as u32).collect();
+        self.checks.samples(self.dataset, measure, &rows)
+    }
+
     /// The error over all outputs that a loss stands for, as [`FrontMember::search_error`] shows it.
     pub fn error(&self, loss: f64) -> f64 {
         loss.sqrt() * self.unit

@@ -69,6 +69,45 @@ pub(super) fn polish(
     })
 }
 
+/// Constants with few digits in the columns' own units, where others were searched: only of formulas
+/// that err by hardly more than rounding, since of all others units shall change no bit of the errors.
+pub(super) fn laws_in_their_units(
+    members: Vec<FrontMember>,
+    problem: &Problem,
+    measure: Measure,
+) -> Vec<FrontMember> {
+    if problem.scales.is_none() {
+        return members;
+    }
+    let rounding = Rounding::of(problem);
+    if !members.iter().any(|member| rounding.covers(&member.score, measure)) {
+        return members;
+    }
+    let (samples, names) = (problem.all_as_given(measure), problem.dataset.names());
+    let shortened = |member: FrontMember| {
+        let mut draft = member.program.clone().into_draft();
+        let mut fitter = Fitter::default();
+        if measure == Measure::Max {
+            drop_negligible_minimax(&mut fitter, &mut draft, &samples, MINIMAX_ALLOWANCE);
+            shorten_minimax(&mut fitter, &mut draft, &samples, MINIMAX_ALLOWANCE);
+        } else {
+            drop_negligible(&mut fitter, &mut draft, &samples, SHORTENING_ALLOWANCE);
+            shorten(&mut fitter, &mut draft, &samples, SHORTENING_ALLOWANCE);
+        }
+        let Ok(program) = Program::verify(draft) else { return member };
+        let program = effective(&tidy(&program));
+        let short = FrontMember::new(program, problem.dataset, problem.profile, &names);
+        let is_law = rounding.covers(&short.score, measure) && short.score.is_finite();
+        let stays = is_law && short.cost <= member.cost && problem.shows(&short.program);
+        if stays { short } else { member }
+    };
+    let each = members.into_iter().map(|member| match rounding.covers(&member.score, measure) {
+        true => shortened(member),
+        false => member,
+    });
+    each.collect()
+}
+
 /// The formula as the search left it, simplified; nothing where it is not finite on every sample or not as
 /// required.
 pub(super) fn as_found(draft: &Draft, problem: &Problem, names: &Names) -> Option<FrontMember> {

@@ -191,7 +191,7 @@ impl Front {
     }
 
     /// The same of the file's text.
-    pub(super) fn parse(
+    pub fn parse(
         path: &Path,
         text: &str,
         run: &Run,
@@ -264,7 +264,7 @@ impl Run {
     }
 
     /// Reads the text of `run.ron`, and checks it; or says on which line it is wrong.
-    pub(super) fn from_ron(text: &str) -> Result<Run, (usize, String)> {
+    pub fn from_ron(text: &str) -> Result<Run, (usize, String)> {
         let run: Run =
             ron::from_str(text).map_err(|error| (error.span.start.line, error.code.to_string()))?;
         run.check().map_err(|reason| (line_of_field(text, &reason), reason))?;

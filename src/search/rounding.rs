@@ -32,6 +32,9 @@ pub(super) fn beyond_rounding(
     ranked.into_iter().map(|(_, member)| member).collect()
 }
 
+/// Roundings that add up in a formula which takes large numbers from one another.
+const NEAR: f64 = 64.0;
+
 /// The errors that are rounding, by output, on the search split and the validation split.
 pub(super) struct Rounding([Vec<OutputError>; 2]);
 
@@ -42,6 +45,13 @@ impl Rounding {
             let outputs = &split.columns[dataset.inputs.len()..];
             outputs.iter().map(|values| rounding_errors(values)).collect()
         }))
+    }
+
+    /// Whether every output errs by hardly more than rounding on the search split: law and formula may round
+    /// differently.
+    pub fn covers(&self, score: &Score, measure: Measure) -> bool {
+        let pairs = score.search.iter().zip(&self.0[0]);
+        pairs.into_iter().all(|(error, least)| error.of(measure) <= NEAR * least.of(measure))
     }
 
     /// A score none of whose errors is below rounding.

@@ -4,6 +4,9 @@ use super::Simplifier;
 use crate::op::Op;
 use crate::program::Arg;
 
+/// Constants that are added may be as many times as large as what is left of them.
+const FAR: f32 = 16.0;
+
 impl Simplifier {
     /// What `op` on `args` is by one of the rules; the arguments are simplified already.
     pub(super) fn rewrite(&mut self, op: Op, args: &[Arg]) -> Option<Arg> {
@@ -19,14 +22,22 @@ impl Simplifier {
                 let product = self.build(Op::Mul, &args[..2]);
                 Some(self.build(Op::Add, &[product, args[2]]))
             }
-            Op::Abs => {
-                let inner = self.negated(x)?;
-                Some(self.build(Op::Abs, &[inner]))
-            }
+            Op::Abs => self.absolute(x),
             Op::Lerp if self.constant(args[2]) == Some(1.0) => Some(y),
             Op::Pow if self.constant(y) == Some(0.0) => Some(self.number(1.0)),
             _ => self.inverse(op, x),
         }
+    }
+
+    /// `|−x|`; `|c x|` as `|c| |x|`, so that constants meet.
+    fn absolute(&mut self, x: Arg) -> Option<Arg> {
+        if let Some(inner) = self.negated(x) {
+            return Some(self.build(Op::Abs, &[inner]));
+        }
+        let (inner, c) = self.constant_last(x, Op::Mul).filter(|_| self.is_read_once(x))?;
+        let c = self.fold(Op::Abs, &[c])?;
+        let inner = self.build(Op::Abs, &[inner]);
+        Some(self.build(Op::Mul, &[inner, c]))
     }
 
     /// Functions of their inverse.
@@ -83,10 +94,40 @@ impl Simplifier {
             let c = self.fold(Op::Add, &[c2, c])?;
             return Some(self.build(Op::Add, &[inner, c]));
         }
+        if let Some(sum) = self.scaled_sum_with_constant(x, c) {
+            return Some(sum);
+        }
         let (left, right) = self.operands(x, Op::Sub)?;
         self.constant(left)?;
         let c = self.fold(Op::Add, &[left, c])?;
         Some(self.build(Op::Sub, &[c, right]))
+    }
+
+    /// `c₁ (x + c₂) + c` as `c₁ x + c₃`, where nothing else reads what that takes apart: but where `c₂` brings what
+    /// lies far from zero near to it, digits would be lost.
+    fn scaled_sum_with_constant(&mut self, product: Arg, c: Arg) -> Option<Arg> {
+        let (sum, c1) = self.constant_last(product, Op::Mul)?;
+        if !self.is_read_once(product) || !self.is_read_once(sum) {
+            return None;
+        }
+        let (op, x, c2) = match self.constant_last(sum, Op::Add) {
+            Some((x, c2)) => (Op::Add, x, c2),
+            None => {
+                let (c2, x) = self.operands(sum, Op::Sub)?;
+                (Op::Sub, x, c2)
+            }
+        };
+        let shift = self.fold(Op::Mul, &[c1, c2])?;
+        let size = |arg: Arg| self.constant(arg).map(f32::abs);
+        if size(shift)? > FAR * size(c)?.max(size(c1)?) {
+            return None;
+        }
+        let c = self.fold(Op::Add, &[shift, c])?;
+        let x = self.build(Op::Mul, &[x, c1]);
+        Some(match op {
+            Op::Add => self.build(Op::Add, &[x, c]),
+            _ => self.build(Op::Sub, &[c, x]),
+        })
     }
 
     /// The operands of `arg`, an `op` of something and a constant, the constant second.
