@@ -119,6 +119,15 @@ fn what_is_refuted_is_refuted_within_the_domain_as_given() {
 }
 
 #[test]
+fn places_have_no_more_digits_than_single_precision() {
+    let (_, shown, _) = check(&["y = max(x, 0.3)", "--domain", "x=0.01..0.7"]);
+    assert!(shown.starts_with("domain: x in [0.01, 0.7]; "), "{shown}");
+    let bend = shown.lines().find(|line| line.contains("bends")).unwrap();
+    let place = bend.split("x = ").nth(1).unwrap().split(',').next().unwrap();
+    assert!(place.len() <= 10, "{bend}");
+}
+
+#[test]
 fn waves_beyond_half_a_turn_are_open_on_gpus() {
     let statuses = |formula: &str, domain: &str| {
         let (_, shown, _) = check(&[formula, "--domain", domain, "--range=-1..1"]);

@@ -151,6 +151,10 @@ fn a_dataset_is_called_nothing_that_acts() {
         hostile.inputs[0].name = name.into();
         assert!(hostile.save(&here.join("hostile.bin")).is_err(), "{name:?}");
     }
+    let mut hostile = line();
+    hostile.inputs[0].domain = [0.0, 1e300];
+    let refused = hostile.save(&here.join("hostile.bin")).unwrap_err().to_string();
+    assert!(refused.contains("[0, 1e300]"), "{refused}");
     // As a file that another program wrote.
     for (at, name) in NAMES.iter().enumerate().filter(|(_, name)| !name.is_empty()) {
         let path = here.join(format!("hostile{at}.bin"));
@@ -163,6 +167,7 @@ fn a_dataset_is_called_nothing_that_acts() {
             assert_eq!(said.code, INPUT, "{name:?}: {}", said.stderr);
             assert!(said.stderr.contains("cannot be called"), "{name:?}: {}", said.stderr);
             assert_calm(&said);
+            assert_eq!(said.stderr.trim_end().lines().count(), 1, "{name:?}: {}", said.stderr);
         }
     }
     assert!(!here.join("runs").exists());

@@ -2,7 +2,7 @@ use super::eval::{assigned_outputs, settled};
 use super::run_folder::{self, Which};
 use super::{Common, Exit, Failure};
 use crate::dataset::{Column, Dataset};
-use crate::program::{Names, Program, parse_open};
+use crate::program::{Names, Program, parse_open, shortest};
 use crate::report::examination;
 use crate::report::table::cycles_text;
 use crate::report::verdict::claim_text;
@@ -63,22 +63,28 @@ pub fn run(args: &Args, common: &Common) -> Result<(), Failure> {
         }
         return check_front(args, path, common);
     }
-    let (program, names, questions) = match &args.dataset {
+    let (program, names, asked) = match &args.dataset {
         Some(dataset) => of_dataset(args, dataset)?,
         None => of_domain(args)?,
     };
-    check_one(args, &program, &names, &questions, common)
+    check_one(args, &program, &names, &asked, common)
 }
 
-fn of_dataset(args: &Args, path: &Path) -> Result<(Program, Names, Questions), Failure> {
+/// What is asked, and of which inputs.
+struct Asked {
+    inputs: Vec<Column>,
+    questions: Questions,
+}
+
+fn of_dataset(args: &Args, path: &Path) -> Result<(Program, Names, Asked), Failure> {
     let dataset = Dataset::load(path)?;
     let (program, names) = settled(assigned_outputs(&args.formula, &dataset.names())?)?;
     let dataset = dataset.select(Some(&names.inputs), Some(&names.outputs))?;
     let questions = questions(args, &dataset.inputs, &dataset.outputs)?;
-    Ok((program, names, questions))
+    Ok((program, names, Asked { inputs: dataset.inputs, questions }))
 }
 
-fn of_domain(args: &Args) -> Result<(Program, Names, Questions), Failure> {
+fn of_domain(args: &Args) -> Result<(Program, Names, Asked), Failure> {
     let (program, names) = settled(parse_open(&args.formula, &[])?)?;
     let column = |name: &String, domain| Column { name: name.clone(), unit: "1".into(), domain };
     let mut inputs = Vec::new();
@@ -110,7 +116,7 @@ fn of_domain(args: &Args) -> Result<(Program, Names, Questions), Failure> {
     let anything = [f64::NEG_INFINITY, f64::INFINITY];
     let outputs: Vec<Column> = names.outputs.iter().map(|name| column(name, anything)).collect();
     let questions = questions(args, &inputs, &outputs)?;
-    Ok((program, names, questions))
+    Ok((program, names, Asked { inputs, questions }))
 }
 
 /// What the columns suggest, and what the command line says.
@@ -156,14 +162,15 @@ fn check_one(
     args: &Args,
     program: &Program,
     names: &Names,
-    questions: &Questions,
+    Asked { inputs, questions }: &Asked,
     common: &Common,
 ) -> Result<(), Failure> {
     let examination = Examination::of(program, questions, args.half);
     let mut value = examination::json(&examination, names);
     value["verdict"] = json!(VerdictRecord::new(&examination.verdict, names));
-    let sides = names.inputs.iter().zip(&questions.domain);
-    let sides = sides.map(|(name, side)| format!("{name} in [{}, {}]", side.low(), side.high()));
+    let sides = inputs.iter().map(|Column { name, domain: [low, high], .. }| {
+        format!("{name} in [{}, {}]", shortest(*low), shortest(*high))
+    });
     let sides = sides.collect::<Vec<_>>().join(", ");
     let text = format!(
         "domain: {sides}; slack {}\n\n{}",
@@ -213,7 +220,8 @@ fn check_front(args: &Args, folder: &Path, common: &Common) -> Result<(), Failur
                 front.members.len()
             ))
         })?;
-        return check_one(args, &member.program, &names, &questions, common);
+        let asked = Asked { inputs: run.inputs.clone(), questions };
+        return check_one(args, &member.program, &names, &asked, common);
     }
     let judge = |member: &FrontMember| Verdict::of(&member.program, &questions);
     let verdicts: Vec<Verdict> = front.members.par_iter().map(judge).collect();

@@ -2,7 +2,7 @@ use super::run_folder::{self, Which};
 use super::{Common, Exit, Failure, tiers};
 use crate::emit::Language;
 use crate::num::Interval;
-use crate::program::Names;
+use crate::program::{Names, shortest};
 use crate::report::examination::expression;
 use crate::report::table::{cycles_text, error_text};
 use crate::report::verdict::number_text;
@@ -171,8 +171,9 @@ fn pick<'a>(args: &Args, run: &Run, front: &'a Front) -> Result<&'a FrontMember,
     let unmet = |message: String| Failure::new(Exit::Unmet, anyhow::Error::msg(message));
     if args.max_cost.is_some() || args.max_error.is_some() {
         return front.within(args.max_cost, args.max_error).ok_or_else(|| {
-            let limit =
-                |limit: Option<f64>, what: &str| limit.map(|limit| format!("{what} {limit}"));
+            let limit = |limit: Option<f64>, what: &str| {
+                limit.map(|limit| format!("{what} {}", shortest(limit)))
+            };
             let limits = [
                 limit(args.max_cost, "cycles of at most"),
                 limit(args.max_error, "an error of at most"),

@@ -1,4 +1,6 @@
 use super::{MOST_COLUMNS, MOST_ROWS, NameFault};
+use crate::printable::printable;
+use crate::program::shortest;
 use std::path::PathBuf;
 
 /// Why a dataset cannot be read, written or used. `path` is the file, or the
@@ -25,7 +27,7 @@ pub enum Error {
     #[error("{path}: unusable header: {problem}; generate or import it again", path = path.display())]
     Header { path: PathBuf, problem: String },
 
-    #[error("{path}: a dataset cannot be called `{name}`: {fault}; call its file otherwise and make it again", path = path.display())]
+    #[error("{path}: a dataset cannot be called `{}`: {fault}; call its file otherwise and make it again", printable(name), path = path.display())]
     Name { path: PathBuf, name: String, fault: NameFault },
     #[error("{path}: {columns} columns are more than {MOST_COLUMNS}; leave some out", path = path.display())]
     TooManyColumns { path: PathBuf, columns: usize },
@@ -39,11 +41,11 @@ pub enum Error {
     NoOutputs { path: PathBuf },
     #[error("{path}: the {split} split has no rows; at least one is needed", path = path.display())]
     NoRows { path: PathBuf, split: &'static str },
-    #[error("{path}{}: column name `{column}` is not an identifier (at most 200 letters, digits and `_`, no digit first); rename it, for example to `{suggestion}`", at_line(*line), path = path.display())]
+    #[error("{path}{}: column name `{}` is not an identifier (at most 200 letters, digits and `_`, no digit first); rename it, for example to `{suggestion}`", at_line(*line), printable(column), path = path.display())]
     ColumnName { path: PathBuf, line: Option<usize>, column: String, suggestion: String },
     #[error("{path}: column `{column}` occurs more than once; name each column once", path = path.display())]
     DuplicateColumn { path: PathBuf, column: String },
-    #[error("{path}: column `{column}` has the domain [{low}, {high}]; it must be in ascending order, within ±3.4e38 as 32-bit floats are", path = path.display())]
+    #[error("{path}: column `{column}` has the domain [{}, {}]; it must be in ascending order, within ±3.4e38 as 32-bit floats are", shortest(*low), shortest(*high), path = path.display())]
     Domain { path: PathBuf, column: String, low: f64, high: f64 },
     #[error("{path}: the {split} split has {found} columns, but {expected} are named; generate or import it again", path = path.display())]
     ColumnCount { path: PathBuf, split: &'static str, found: usize, expected: usize },
@@ -81,9 +83,9 @@ pub enum Error {
     RaggedRow { path: PathBuf, line: usize, found: usize, expected: usize },
     #[error("{path}, line {line}, column `{column}`: {}; write a number such as 0.25, or remove the row", cell(text), path = path.display())]
     Cell { path: PathBuf, line: usize, column: String, text: String },
-    #[error("{path}, line {line}, column `{column}`: `{text}` is not finite; remove the row or write a finite number", path = path.display())]
+    #[error("{path}, line {line}, column `{column}`: `{}` is not finite; remove the row or write a finite number", printable(text), path = path.display())]
     CellNotFinite { path: PathBuf, line: usize, column: String, text: String },
-    #[error("{path}, line {line}, column `{column}`: `{text}` is too large for 32-bit floats (largest: 3.4e38); use a smaller unit", path = path.display())]
+    #[error("{path}, line {line}, column `{column}`: `{}` is too large for 32-bit floats (largest: 3.4e38); use a smaller unit", printable(text), path = path.display())]
     CellOverflow { path: PathBuf, line: usize, column: String, text: String },
     #[error("{path}, line {line}, column `{column}`: {value} is negative; weights must not be (name the column among the inputs if it is none)", path = path.display())]
     NegativeWeight { path: PathBuf, line: usize, column: String, value: f32 },
@@ -103,5 +105,9 @@ fn did_you_mean(suggestion: &Option<String>) -> String {
 }
 
 fn cell(text: &str) -> String {
-    if text.is_empty() { "the cell is empty".into() } else { format!("`{text}` is not a number") }
+    if text.is_empty() {
+        "the cell is empty".into()
+    } else {
+        format!("`{}` is not a number", printable(text))
+    }
 }

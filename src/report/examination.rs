@@ -208,8 +208,11 @@ impl Page<'_> {
         }
         for one in &smoothness.breaks {
             let (name, along) = (self.output(one.output), &self.names.inputs[one.along]);
-            let place =
-                format!("{}, in {}", self.input(&one.input), self.operation(one.instruction));
+            let place = format!(
+                "{}, in {}",
+                self.input(&single(&one.input)),
+                self.operation(one.instruction)
+            );
             let what = match one.jump.abs() > JUMP {
                 true => format!("jumps by {}", number_text(one.jump)),
                 false => format!("bends: its slope changes by {}", number_text(one.kink)),
@@ -218,6 +221,11 @@ impl Page<'_> {
         }
         text
     }
+}
+
+/// Where something is, to the digits that matter.
+fn single(input: &[f64]) -> Vec<f32> {
+    input.iter().map(|&x| x as f32).collect()
 }
 
 /// A bound on the error of halves in words: a worst case only where there can be no worse.

@@ -1,5 +1,6 @@
 use crate::dataset::{self, NameFault};
 use crate::grammar::FileError;
+use crate::printable::printable;
 use crate::program::{ParseError, shortest};
 use std::path::PathBuf;
 
@@ -8,7 +9,10 @@ use std::path::PathBuf;
 pub enum Error {
     #[error(transparent)]
     File(#[from] FileError),
-    #[error("a scene or a tier of it cannot be called `{name}`: {fault}; call it otherwise")]
+    #[error(
+        "a scene or a tier of it cannot be called `{}`: {fault}; call it otherwise",
+        printable(name)
+    )]
     Name { name: String, fault: NameFault },
     #[error(
         "no scene is called `{name}`{hint} ({}; or give the path of a .ron file)",
