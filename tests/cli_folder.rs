@@ -244,6 +244,60 @@ fn a_front_is_shown_though_the_disk_is_full() {
     succeed(here, &["front", "full"]);
 }
 
+/// A file system of each size up to one on which all fits: the front is shown, what is left is whole, and with
+/// more space the search goes on. Only where this user may mount one.
+#[cfg(target_os = "linux")]
+#[test]
+fn a_small_disk_fills_up_at_any_file() {
+    let may_mount = || {
+        let script = "mount -t tmpfs tmpfs /mnt";
+        Command::new("unshare")
+            .args(["-rm", "sh", "-c", script])
+            .output()
+            .ok()?
+            .status
+            .success()
+            .then_some(())
+    };
+    if may_mount().is_none() {
+        eprintln!("SKIPPED: this user may not mount a file system");
+        return;
+    }
+    let folder = folder();
+    let here = folder.path();
+    std::fs::create_dir(here.join("disk")).unwrap();
+    let program = Command::cargo_bin("lgp").unwrap().get_program().to_owned();
+    let script = format!(
+        "mount -t tmpfs -o size=$SIZE tmpfs disk; '{0}' {1} --out disk/run; echo code $?; '{0}' front disk/run; \
+         echo code $?; mount -o remount,size=8m disk; '{0}' search --resume --generations 3 --out disk/run; \
+         echo code $?; '{0}' front disk/run; echo code $?",
+        program.display(),
+        SHORT.join(" ")
+    );
+    let mut ends = Vec::new();
+    for kilobytes in [20, 100, 180, 300, 450, 700, 900, 2000] {
+        let mut command = Command::new("unshare");
+        command.current_dir(here).env("SIZE", format!("{kilobytes}k"));
+        let output = command.args(["-rm", "sh", "-c", &script]).output().unwrap();
+        let (shown, said) = (text(&output.stdout), text(&output.stderr));
+        let codes: Vec<&str> =
+            shown.lines().filter_map(|line| line.strip_prefix("code ")).collect();
+        let end = codes.join(" ");
+        assert!(
+            shown.starts_with("   #  cycles"),
+            "{kilobytes} kB: the front is not shown: {said}"
+        );
+        assert!(codes[0] == "0" || said.contains("free some space"), "{kilobytes} kB: {said}");
+        assert!(!said.contains("panicked"), "{kilobytes} kB: {said}");
+        // All fitted; all but some pictures; a search to go on with; not even that.
+        let known = ["0 0 0 0", "1 0 0 0", "1 3 0 0", "1 3 3 3"];
+        assert!(known.contains(&end.as_str()), "{kilobytes} kB: {end}: {said}");
+        ends.push(end);
+    }
+    assert!(ends[0] == "1 3 3 3" && ends.last().unwrap() == "0 0 0 0", "{ends:?}");
+    assert!(ends.contains(&"1 3 0 0".to_owned()), "{ends:?}");
+}
+
 #[test]
 fn what_cannot_be_found_is_said() {
     let folder = folder();

@@ -2,6 +2,7 @@ use super::output::to_stderr;
 use crate::grammar::FileError;
 use crate::search::{Incompatible, RecordError};
 use crate::{dataset, program, scene, targets};
+use std::io::ErrorKind;
 use std::path::Path;
 use std::process::ExitCode;
 
@@ -44,9 +45,14 @@ impl Failure {
     }
 
     /// An output that cannot be written.
-    pub fn unwritable(path: &Path, reason: impl std::fmt::Display) -> Failure {
+    pub fn unwritable(path: &Path, reason: std::io::Error) -> Failure {
         let path = path.display();
-        let advice = "choose an output in a folder that exists and that you may write to";
+        let advice = match reason.kind() {
+            ErrorKind::StorageFull | ErrorKind::QuotaExceeded => {
+                "free some space, or choose an output on another disk"
+            }
+            _ => "choose an output in a folder that exists and that you may write to",
+        };
         Failure::new(Exit::Failed, anyhow::anyhow!("{path}: cannot be written: {reason}; {advice}"))
     }
 

@@ -111,21 +111,22 @@ pub fn check_writable(path: &Path) -> Result<(), Failure> {
         _ => Path::new("."),
     };
     if path.file_name().is_none() {
-        return Err(Failure::unwritable(path, "it is a folder"));
+        return Err(Failure::unwritable(path, ErrorKind::IsADirectory.into()));
     }
     check_replaceable(path).map_err(|error| Failure::unwritable(path, error))?;
     let attempt = tempfile::Builder::new().prefix(".lgp-").tempfile_in(folder);
     // The error would name the temporary, which means nothing to the user.
-    attempt.map(drop).map_err(|error| Failure::unwritable(path, reason(&error)))
+    attempt.map(drop).map_err(|error| Failure::unwritable(path, reason(error)))
 }
 
-fn reason(error: &std::io::Error) -> String {
-    match error.kind() {
-        ErrorKind::NotFound => "its folder does not exist".into(),
-        ErrorKind::NotADirectory => "its folder is a file".into(),
-        ErrorKind::PermissionDenied => "its folder does not let you write".into(),
-        kind => kind.to_string(),
-    }
+fn reason(error: std::io::Error) -> std::io::Error {
+    let reason = match error.kind() {
+        ErrorKind::NotFound => "its folder does not exist",
+        ErrorKind::NotADirectory => "its folder is a file",
+        ErrorKind::PermissionDenied => "its folder does not let you write",
+        kind => return kind.into(),
+    };
+    std::io::Error::new(error.kind(), reason)
 }
 
 /// Saves a dataset under the name of its file, as committed recipes expect.

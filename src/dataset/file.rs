@@ -42,9 +42,9 @@ impl StagedFile {
         #[cfg(unix)]
         builder.permissions(std::os::unix::fs::PermissionsExt::from_mode(0o666));
         announce("create", path);
-        let mut file = builder.tempfile_in(folder)?;
+        let mut file = builder.tempfile_in(folder).map_err(plain)?;
         announce("write", path);
-        file.write_all(bytes)?;
+        file.write_all(bytes).map_err(plain)?;
         file.as_file().sync_all()?;
         Ok(StagedFile { temporary: file.into_temp_path(), path: path.to_owned() })
     }
@@ -62,6 +62,14 @@ impl StagedFile {
         announce("rename", &self.path);
         Ok(self.temporary.persist(&self.path)?)
     }
+}
+
+/// The error without the temporary's name, which tells nobody anything.
+fn plain(error: io::Error) -> io::Error {
+    let inner = error.get_ref().and_then(|error| error.source());
+    let inner = inner.and_then(|error| error.downcast_ref::<io::Error>());
+    let code = inner.and_then(io::Error::raw_os_error);
+    code.map_or(error, io::Error::from_raw_os_error)
 }
 
 /// Removes a file, if there is one.
