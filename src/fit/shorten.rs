@@ -34,8 +34,14 @@ pub fn shorten_free(
     let mut loss = fitter.fit(program, samples, NOTHING);
     let mut comparison = Comparison::by_squares(samples);
     let limit = comparison.error(fitter, program) * (1.0 + allowance);
+    let free: Vec<usize> = (0..program.consts.len()).filter(|&i| is_free(i)).collect();
+    let order = simplest_first(free, limit, program, |trial| match fitter.is_cut(samples) {
+        true => f64::INFINITY,
+        false => comparison.error(fitter, trial),
+    });
     let mut trial = program.clone();
-    for constant in (0..program.consts.len()).filter(|&constant| is_free(constant)) {
+    for (place, &constant) in order.iter().enumerate() {
+        let later = &order[place + 1..];
         for digits in 0..=MOST_DIGITS {
             if fitter.is_cut(samples) {
                 return loss;
@@ -44,8 +50,7 @@ pub fn shorten_free(
             trial.consts[constant] = rounded(program.consts[constant], digits);
             // What is nearly 0 needs nothing to make up for it.
             let stop = if digits == 0 { NOTHING } else { MAKE_UP };
-            let trial_loss =
-                fitter.fit_free(&mut trial, samples, stop, |i| i > constant && is_free(i));
+            let trial_loss = fitter.fit_free(&mut trial, samples, stop, |i| later.contains(&i));
             if comparison.error(fitter, &trial) <= limit {
                 program.copy_from(&trial);
                 loss = trial_loss;
@@ -55,6 +60,33 @@ pub fn shorten_free(
     }
     loss
 }
+
+/// Constants, those first that nearly are numbers of one digit, and may be: what is nearly 1 shall not stay so to
+/// make up for a third that was cut off.
+fn simplest_first(
+    mut constants: Vec<usize>,
+    limit: f64,
+    program: &Draft,
+    mut error: impl FnMut(&Draft) -> f64,
+) -> Vec<usize> {
+    let mut trial = program.clone();
+    let mut is_simple = |constant: usize| {
+        let value = program.consts[constant];
+        let simple = rounded(value, 1);
+        if (simple - value).abs() > NEARLY * value.abs() {
+            return false;
+        }
+        trial.consts[constant] = simple;
+        let is_enough = error(&trial) <= limit;
+        trial.consts[constant] = value;
+        is_enough
+    };
+    constants.sort_by_cached_key(|&constant| !is_simple(constant));
+    constants
+}
+
+/// By what share a fitted constant may be off a law's.
+const NEARLY: f32 = 1e-5;
 
 /// The value with so many significant decimal digits; 0 with none.
 pub(super) fn rounded(value: f32, digits: usize) -> f32 {
@@ -96,6 +128,20 @@ mod tests {
         let shortened = shorten(&mut fitter, &mut draft, &samples, 0.01);
         assert!(shortened <= fitted * 1.01, "{fitted} {shortened}");
         assert!(digits(&draft) * 2 < before, "{before} {:?}", draft.consts);
+    }
+
+    #[test]
+    fn what_is_nearly_one_is_one() {
+        let xs: Vec<f32> = (0..100).map(|i| i as f32 / 99.0).collect();
+        let ys = xs.iter().map(|&x| (f64::from(x) / (1.0 - f64::from(x) / 3.0)) as f32).collect();
+        let split = Split { columns: vec![xs, ys], ..Split::default() };
+        let samples = Samples::new(&split, 1);
+        let names = Names::new(["x"], ["y"]);
+        for text in ["y = x/(1.0000001 - 0.3333333*x)", "y = x/(0.9999999 - x*0.3333334)"] {
+            let mut draft = parse(text, &names).unwrap().into_draft();
+            shorten(&mut Fitter::default(), &mut draft, &samples, 0.0);
+            assert!(draft.consts.contains(&1.0), "{:?}", draft.consts);
+        }
     }
 
     #[test]

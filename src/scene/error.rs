@@ -20,6 +20,12 @@ pub enum Error {
     )]
     NoSuchScene { name: String, hint: String, folder: PathBuf, known: String },
 
+    #[error(
+        "scene {scene}: {part}: {} of `{}` is no number that a 32-bit float can have; write another",
+        shortest(*value),
+        printable(name)
+    )]
+    Number { scene: String, part: &'static str, name: String, value: f64 },
     #[error("scene {scene}: {part} names `{name}`, which is no input of {dataset}{known}")]
     UnknownInput {
         scene: String,

@@ -156,9 +156,10 @@ impl Scene {
     /// What can be checked of it without a dataset.
     ///
     /// # Errors
-    /// A name that is none; a tier without limits, or with some that cannot be meant.
+    /// A name that is none; a number that is none; a tier without limits, or with some that cannot be meant.
     pub fn check(&self) -> Result<(), Error> {
         self.check_names()?;
+        self.check_numbers()?;
         self.check_tiers()
     }
 
@@ -204,6 +205,25 @@ impl Scene {
         check_name(&self.name).map_err(|fault| named(&self.name, fault))?;
         for tier in self.tiers.iter().map(|(tier, _)| tier) {
             check_text(tier).map_err(|fault| named(tier, fault))?;
+        }
+        Ok(())
+    }
+
+    fn check_numbers(&self) -> Result<(), Error> {
+        let fixed = self.fixed.iter().map(|(name, value)| ("fixed", name.clone(), *value));
+        let ranges = self
+            .ranges
+            .iter()
+            .flat_map(|(name, ends)| ends.map(|end| ("ranges", name.clone(), end)));
+        let histograms = self.histograms.iter().flat_map(|histogram| {
+            let ends = histogram.over.iter().flatten();
+            let numbers = ends.chain(&histogram.counts);
+            numbers.map(|&number| ("histograms", histogram.inputs.join(", "), number))
+        });
+        for (part, name, value) in fixed.chain(ranges).chain(histograms) {
+            if !(value as f32).is_finite() {
+                return Err(Error::Number { scene: self.name.clone(), part, name, value });
+            }
         }
         Ok(())
     }

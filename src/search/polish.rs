@@ -13,7 +13,7 @@ use crate::fit::{
 };
 use crate::num::{Interval, enclose};
 use crate::op::{MAX_ARITY, Op};
-use crate::program::{Arg, Draft, Names, Program, effective};
+use crate::program::{Arg, Draft, Instr, Names, Program, effective};
 use crate::simplify::{Simplifier, tidy};
 use rayon::prelude::*;
 
@@ -130,15 +130,18 @@ fn finished(
     let mut simple = Draft::default();
     simplifier.simplify(draft, &mut simple);
     let guarded = guarded(&simple, problem);
-    let finished = [draft.clone(), simple].into_iter().chain(guarded).filter_map(|draft| {
-        let draft = problem.natural(&draft).into_owned();
-        let active = without_idle(Program::verify(draft).ok()?, &problem.dataset.inputs);
-        let mut program = effective(&tidy(&active));
-        if reads_only_constants(&program) {
-            let mut folded = Draft::default();
-            simplifier.simplify(&active, &mut folded);
-            program = effective(&tidy(&Program::verify(folded).ok()?));
-        }
+    let natural = [draft.clone(), simple].into_iter().chain(guarded).filter_map(|draft| {
+        let program = Program::verify(problem.natural(&draft).into_owned()).ok()?;
+        let active = without_idle(program, &problem.dataset.inputs);
+        // What was idle may have stood between constants.
+        let mut simple = Draft::default();
+        simplifier.simplify(&active, &mut simple);
+        let is_smaller = simple.instrs.len() < effective(&active).instrs.len();
+        let smaller = Program::verify(simple).ok().filter(|_| is_smaller);
+        Some([Some(active), smaller])
+    });
+    let finished = natural.flatten().flatten().filter_map(|program| {
+        let program = effective(&tidy(&program));
         let member = FrontMember::new(program, problem.dataset, problem.profile, names);
         (!reads_only_constants(&member.program)).then_some(member)
     });
@@ -260,6 +263,10 @@ fn without_idle(program: Program, inputs: &[Column]) -> Program {
         results.push(Bounds.apply(instr.op(), arguments));
         let idle = passes_through(instr.op(), arguments).map(|place| instr.args()[place]);
         moved.push(idle.unwrap_or(Arg::Result(i as u16)));
+        let [only, ..] = arguments;
+        if instr.op() == Op::Abs && only.high() <= 0.0 && !only.may_be_nan() && !only.is_empty() {
+            draft.instrs[i] = Instr::new(Op::Neg, instr.args());
+        }
     }
     draft.outputs.iter_mut().for_each(|output| redirect(output, &moved));
     Program::verify(draft).unwrap_or(program)
@@ -302,6 +309,7 @@ mod tests {
             ("y = abs(x - 0.5)", "y = abs(x - 0.5)"),
             ("y = max(x, -0.5)*saturate(2*x)", "y = x*saturate(2*x)"),
             ("y = min(abs(x + 1), 0.75)", "y = 0.75"),
+            ("y = 2*abs(-0.5 - x)", "y = 2*-(-0.5 - x)"),
         ] {
             let program = without_idle(parse(text, &names).unwrap(), &inputs);
             assert_eq!(print(&effective(&program), &names), left);
