@@ -17,7 +17,7 @@ fn dataset(scale: f32) -> Dataset {
         let weights = column(&|x| 0.05 + 4.0 * x * x);
         let free = vec![column(&|x| 0.02 * x), column(&|x| 0.02 * scale * (1.0 - x))];
         let columns = [xs].into_iter().chain(outputs).collect();
-        Split { columns, weights, free, grid: Vec::new() }
+        Split { columns, weights, free, ..Split::default() }
     };
     let column =
         |name: &str, high: f64| Column { name: name.into(), unit: "1".into(), domain: [0.0, high] };

@@ -129,3 +129,32 @@ fn small_terms_that_count_stay() {
     let (_, constants) = last(&front, &data.names());
     assert_eq!(constants, [1e-4], "{formulas:?}");
 }
+
+/// Of data with standard errors, no member fits their noise.
+#[test]
+fn members_win_by_more_than_standard_errors() {
+    let mut data = sampled(&["x"], &["y"], &[|x| 2.5 * x[0] - 0.75]);
+    const ERROR: f32 = 0.02;
+    // Sums of twelve uniform numbers are nearly normal.
+    let mut state = 1u64;
+    let mut normal = || {
+        let uniform = |_| {
+            state = state.wrapping_mul(6364136223846793005).wrapping_add(1442695040888963407);
+            (state >> 40) as f32 / (1u32 << 24) as f32
+        };
+        (0..12).map(uniform).sum::<f32>() - 6.0
+    };
+    for split in [&mut data.search, &mut data.validation] {
+        split.columns[1].iter_mut().for_each(|y| *y += ERROR * normal());
+    }
+    let plain = front(&data, &[], 12, Measure::Max);
+    for split in [&mut data.search, &mut data.validation] {
+        split.standard_errors = vec![vec![ERROR; split.columns[0].len()]];
+    }
+    for measure in [Measure::Rmse, Measure::Max, Measure::Relative] {
+        let found = front(&data, &[], 12, measure);
+        let costs: Vec<f64> = found.members.iter().map(|member| member.cost).collect();
+        assert_eq!(costs, [0.0, 1.0], "{measure}: {found:?}");
+    }
+    assert!(plain.members.len() > 2, "noise is fitted where it is not told: {plain:?}");
+}

@@ -274,3 +274,19 @@ fn committed_scenes_are_usable() {
         assert!(known.iter().all(|known| known.compared_on(&data).is_some()), "{path:?}");
     }
 }
+
+/// What outputs are combined to errs as they do, independently.
+#[test]
+fn standard_errors_are_combined() {
+    let mut whole = dfg();
+    for split in [&mut whole.search, &mut whole.validation] {
+        split.standard_errors = vec![vec![0.02; split.rows()], vec![0.03; split.rows()]];
+    }
+    let text = "(ranges: {\"roughness\": (0.5, 1)}, outputs: {\"y\": \"2*scale - bias\", \"bias\": \"bias\"})";
+    let scene = Scene::parse("s", text).unwrap();
+    let dataset = scene.over(&whole).unwrap().dataset().unwrap();
+    let [both, alone] = &dataset.search.standard_errors[..] else { panic!("one for each output") };
+    assert_eq!(both.len(), dataset.search.rows());
+    assert!(both.iter().all(|error| (error - 0.05).abs() < 1e-6), "{:?}", &both[..3]);
+    assert!(alone.iter().all(|error| (error - 0.03).abs() < 1e-6), "{:?}", &alone[..3]);
+}

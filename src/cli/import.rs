@@ -8,7 +8,8 @@ use std::path::{Path, PathBuf};
 /// Make a dataset of a table in CSV
 ///
 /// The first line names the columns; every other line holds one number for each.
-/// A column called `weight` weighs the rows. One row in four is kept for validation.
+/// A column called `weight` weighs the rows; `y_se`, where `y` is an output, holds the standard errors of `y`: no
+/// formula wins by less. One row in four is kept for validation.
 #[derive(clap::Args)]
 pub struct Args {
     /// The table: comma-separated numbers under a line of column names
@@ -32,6 +33,7 @@ struct Imported {
     outputs: Vec<String>,
     search_rows: usize,
     validation_rows: usize,
+    standard_errors: bool,
     hash: String,
 }
 
@@ -51,6 +53,7 @@ pub fn run(args: &Args, common: &Common) -> Result<(), Failure> {
         outputs: names(&dataset.outputs),
         search_rows: dataset.search.rows(),
         validation_rows: dataset.validation.rows(),
+        standard_errors: !dataset.search.standard_errors.is_empty(),
         hash: dataset.hash(),
         dataset: dataset.name,
         path: args.output.clone(),
@@ -60,12 +63,13 @@ pub fn run(args: &Args, common: &Common) -> Result<(), Failure> {
 
 fn summary(imported: &Imported) -> String {
     format!(
-        "{}: {} → {}, {} search and {} validation rows",
+        "{}: {} → {}, {} search and {} validation rows{}",
         imported.path.display(),
         imported.inputs.join(", "),
         imported.outputs.join(", "),
         imported.search_rows,
-        imported.validation_rows
+        imported.validation_rows,
+        if imported.standard_errors { ", with standard errors" } else { "" }
     )
 }
 

@@ -38,6 +38,7 @@ struct ColumnInfo {
 struct Rows {
     rows: usize,
     weighted: bool,
+    standard_errors: bool,
     grid: Vec<usize>,
 }
 
@@ -97,7 +98,12 @@ fn values(split: &Split, index: usize) -> Values {
 }
 
 fn rows(split: &Split) -> Rows {
-    Rows { rows: split.rows(), weighted: !split.weights.is_empty(), grid: split.grid.clone() }
+    Rows {
+        rows: split.rows(),
+        weighted: !split.weights.is_empty(),
+        standard_errors: !split.standard_errors.is_empty(),
+        grid: split.grid.clone(),
+    }
 }
 
 fn page(info: &Info) -> String {
@@ -152,5 +158,6 @@ fn describe_rows(rows: &Rows) -> String {
         let axes: Vec<String> = rows.grid.iter().map(ToString::to_string).collect();
         text += &format!(", grid {}", axes.join("×"));
     }
-    text + if rows.weighted { ", weighted" } else { "" }
+    text += if rows.weighted { ", weighted" } else { "" };
+    text + if rows.standard_errors { ", with standard errors" } else { "" }
 }

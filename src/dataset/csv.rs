@@ -5,6 +5,9 @@ use std::path::Path;
 
 /// The column that holds weights, unless it is named as an input.
 const WEIGHT: &str = "weight";
+
+/// What the name of a column of standard errors ends in.
+const STANDARD_ERROR: &str = "_se";
 /// Tables with fewer rows are validated on the rows they are searched on.
 const LEAST_ROWS_TO_SPLIT: usize = 16;
 
@@ -67,7 +70,8 @@ impl Table {
 /// and quotes around cells are ignored.
 ///
 /// A column called `weight` that is not among `inputs` holds the rows'
-/// weights and is neither input nor output.
+/// weights and is neither input nor output; nor is `y_se`, where `y` is an output: it holds the standard errors
+/// of `y`.
 ///
 /// One row of each four consecutive ones, at a position scattered so that it
 /// does not follow the axes of a grid, goes to the validation split. The first
@@ -86,11 +90,21 @@ pub fn import_csv(path: &Path, inputs: &InputColumns) -> Result<Dataset, Error> 
 
 fn imported(path: &Path, mut table: Table, inputs: &InputColumns) -> Result<Dataset, Error> {
     let weights = take_weights(path, &mut table, inputs)?;
+    let standard_errors = take_standard_errors(path, &mut table, inputs)?;
     let order = column_order(path, &table.names, inputs)?;
     let Table { names, mut columns, .. } = table;
     let columns: Vec<Vec<f32>> =
         order.columns.iter().map(|&index| std::mem::take(&mut columns[index])).collect();
-    let (search, validation) = split_rows(&columns, &weights, order.inputs);
+    let outputs = order.columns[order.inputs..].iter().map(|&index| &names[index]);
+    let errors_of = |name| standard_errors.iter().find(|(output, _)| output == name);
+    let standard_errors = match standard_errors.is_empty() {
+        true => Vec::new(),
+        false => outputs
+            .map(|name| errors_of(name).map_or(vec![0.0; columns[0].len()], |(_, e)| e.clone()))
+            .collect(),
+    };
+    let whole = Split { columns, weights, standard_errors, ..Split::default() };
+    let (search, validation) = split_rows(&whole, order.inputs);
     let described = order.columns.iter().enumerate().map(|(position, &index)| Column {
         name: names[index].clone(),
         unit: String::new(),
@@ -211,6 +225,37 @@ fn take_weights(path: &Path, table: &mut Table, inputs: &InputColumns) -> Result
     }
 }
 
+/// Takes the columns that hold standard errors, each with the name of the column whose they are.
+fn take_standard_errors(
+    path: &Path,
+    table: &mut Table,
+    inputs: &InputColumns,
+) -> Result<Vec<(String, Vec<f32>)>, Error> {
+    let mut taken = Vec::new();
+    let is_input = |index: usize, name: &str| match inputs {
+        InputColumns::Count(count) => index < *count,
+        InputColumns::Names(names) => names.iter().any(|input| input == name),
+    };
+    for index in (0..table.names.len()).rev() {
+        let name = &table.names[index];
+        let of = name.strip_suffix(STANDARD_ERROR).map(str::to_owned);
+        let of = of.filter(|_| !is_input(index, name)).and_then(|of| {
+            let place = table.names.iter().position(|column| *column == of)?;
+            (!is_input(place, &of)).then_some(of)
+        });
+        let Some(of) = of else { continue };
+        let column = table.names.remove(index);
+        let errors = table.columns.remove(index);
+        if let Some((&value, &line)) =
+            errors.iter().zip(&table.lines).find(|(error, _)| **error < 0.0)
+        {
+            return Err(Error::NegativeError { path: path.into(), line, column, value });
+        }
+        taken.push((of, errors));
+    }
+    Ok(taken)
+}
+
 /// Indices of the table's columns, inputs first.
 struct Order {
     columns: Vec<usize>,
@@ -253,20 +298,20 @@ fn named_columns(path: &Path, names: &[String], asked: &[String]) -> Result<Vec<
     Ok(columns)
 }
 
-fn split_rows(columns: &[Vec<f32>], weights: &[f32], inputs: usize) -> (Split, Split) {
-    let rows = columns.first().map_or(0, Vec::len);
+fn split_rows(whole: &Split, inputs: usize) -> (Split, Split) {
+    let rows = whole.rows();
     if rows < LEAST_ROWS_TO_SPLIT {
-        let all = gather(columns, weights, &(0..rows).collect::<Vec<_>>());
-        return (all.clone(), all);
+        return (whole.clone(), whole.clone());
     }
-    let kept: HashSet<usize> = columns.iter().take(inputs).flat_map(|c| extremes(c)).collect();
+    let kept: HashSet<usize> =
+        whole.columns.iter().take(inputs).flat_map(|c| extremes(c)).collect();
     let (validation, search): (Vec<usize>, Vec<usize>) =
         (0..rows).partition(|row| held_out(*row) && !kept.contains(row));
     if validation.is_empty() {
-        let all = gather(columns, weights, &search);
+        let all = gather(whole, &search);
         return (all.clone(), all);
     }
-    (gather(columns, weights, &search), gather(columns, weights, &validation))
+    (gather(whole, &search), gather(whole, &validation))
 }
 
 fn extremes(values: &[f32]) -> [usize; 2] {
@@ -295,11 +340,12 @@ fn held_out(row: usize) -> bool {
     bits % 4 == (row % 4) as u64
 }
 
-fn gather(columns: &[Vec<f32>], weights: &[f32], rows: &[usize]) -> Split {
-    let pick = |values: &[f32]| rows.iter().map(|&row| values[row]).collect::<Vec<f32>>();
+fn gather(whole: &Split, rows: &[usize]) -> Split {
+    let pick = |values: &Vec<f32>| rows.iter().map(|&row| values[row]).collect::<Vec<f32>>();
     Split {
-        columns: columns.iter().map(|column| pick(column)).collect(),
-        weights: if weights.is_empty() { Vec::new() } else { pick(weights) },
+        columns: whole.columns.iter().map(pick).collect(),
+        weights: if whole.weights.is_empty() { Vec::new() } else { pick(&whole.weights) },
+        standard_errors: whole.standard_errors.iter().map(pick).collect(),
         ..Split::default()
     }
 }

@@ -61,6 +61,8 @@ pub enum Error {
     NotFinite { path: PathBuf, split: &'static str, column: String, row: usize, value: f32 },
     #[error("{path}: the weight of row {row} of the {split} split is {value}; weights must be finite and not negative", path = path.display())]
     BadWeight { path: PathBuf, split: &'static str, row: usize, value: f32 },
+    #[error("{path}: {called}: row {row} of the {split} split is {value}; none may be negative", path = path.display())]
+    Negative { path: PathBuf, split: &'static str, called: &'static str, row: usize, value: f32 },
     #[error("{path}: all weights of the {split} split are zero; give at least one row a positive weight", path = path.display())]
     ZeroWeights { path: PathBuf, split: &'static str },
     #[error("{path}: a grid of {grid:?} points does not describe the {rows} rows of the {split} split; it needs one factor an input, with the rows as their product", path = path.display())]
@@ -89,6 +91,8 @@ pub enum Error {
     CellOverflow { path: PathBuf, line: usize, column: String, text: String },
     #[error("{path}, line {line}, column `{column}`: {value} is negative; weights must not be (name the column among the inputs if it is none)", path = path.display())]
     NegativeWeight { path: PathBuf, line: usize, column: String, value: f32 },
+    #[error("{path}, line {line}, column `{column}`: {value} is negative; standard errors must not be (name the column among the inputs if it holds none)", path = path.display())]
+    NegativeError { path: PathBuf, line: usize, column: String, value: f32 },
     #[error("{path}: {asked} input columns were asked for, but there are only {columns} columns and at least one must be left as an output; ask for fewer", path = path.display())]
     TooManyInputs { path: PathBuf, asked: usize, columns: usize },
 

@@ -1,6 +1,6 @@
 //! The `.bin` file: magic `LGPDATA1`, the header's length (u32, little-endian),
 //! the header in RON, the columns as little-endian f32 (search columns,
-//! weights and free errors, then the validation split's), and the 32-byte blake3 checksum
+//! weights, free and standard errors, then the validation split's), and the 32-byte blake3 checksum
 //! of everything before it.
 
 use super::{Column, Dataset, Error, LARGEST_FILE, Split, read_file, replace_file};
@@ -30,7 +30,18 @@ struct SplitHeader {
     /// Whether each output has a column of errors that nobody sees.
     #[serde(default, skip_serializing_if = "std::ops::Not::not")]
     free: bool,
+    /// Whether each output has a column of standard errors.
+    #[serde(default, skip_serializing_if = "std::ops::Not::not")]
+    standard_errors: bool,
     grid: Vec<usize>,
+}
+
+impl SplitHeader {
+    /// Columns beside inputs and outputs.
+    fn beside(&self, outputs: usize) -> u128 {
+        let by_output = u128::from(self.free) + u128::from(self.standard_errors);
+        u128::from(self.weighted) + by_output * outputs as u128
+    }
 }
 
 #[derive(Deserialize)]
@@ -106,6 +117,7 @@ impl Dataset {
             rows: split.rows() as u64,
             weighted: !split.weights.is_empty(),
             free: !split.free.is_empty(),
+            standard_errors: !split.standard_errors.is_empty(),
             grid: split.grid.clone(),
         };
         let header = Header {
@@ -126,7 +138,9 @@ impl Dataset {
         bytes.extend_from_slice(&(header.len() as u32).to_le_bytes());
         bytes.extend_from_slice(header.as_bytes());
         for split in [&self.search, &self.validation] {
-            for column in split.columns.iter().chain([&split.weights]).chain(&split.free) {
+            let beside =
+                [&split.weights].into_iter().chain(&split.free).chain(&split.standard_errors);
+            for column in split.columns.iter().chain(beside) {
                 bytes.extend(column.iter().flat_map(|value| value.to_le_bytes()));
             }
         }
@@ -187,10 +201,8 @@ fn check_length(
     intact: bool,
 ) -> Result<(), Error> {
     let columns = (header.inputs.len() + header.outputs.len()) as u128;
-    let free = |split: &SplitHeader| if split.free { header.outputs.len() } else { 0 };
-    let values = |split: &SplitHeader| {
-        u128::from(split.rows) * (columns + u128::from(split.weighted) + free(split) as u128)
-    };
+    let outputs = header.outputs.len();
+    let values = |split: &SplitHeader| u128::from(split.rows) * (columns + split.beside(outputs));
     let values = values(&header.search) + values(&header.validation);
     let expected = (body + CHECKSUM) as u128 + 4 * values;
     if expected == u128::from(found) {
@@ -221,6 +233,9 @@ fn assemble(header: Header, body: &[u8]) -> Dataset {
             columns: (0..columns).map(|_| column()).collect(),
             weights: if split.weighted { column() } else { Vec::new() },
             free: (0..if split.free { outputs } else { 0 }).map(|_| column()).collect(),
+            standard_errors: (0..if split.standard_errors { outputs } else { 0 })
+                .map(|_| column())
+                .collect(),
             grid: split.grid,
         }
     };

@@ -51,6 +51,9 @@ pub struct Split {
     /// By output, the error of each row that nobody sees ([`crate::scene::Quantisation`]); empty where
     /// all errors count.
     pub free: Vec<Vec<f32>>,
+    /// By output, the standard error of each row's value, as a simulation or an instrument has it; empty where values
+    /// are exact to the rounding of `f32`. No formula wins by less.
+    pub standard_errors: Vec<Vec<f32>>,
     /// Points along each input axis, the first input varying slowest, if the
     /// rows are a full regular grid; empty otherwise.
     pub grid: Vec<usize>,
@@ -127,19 +130,32 @@ impl Dataset {
         self.inputs.iter().chain(&self.outputs)
     }
 
-    fn validate_free(&self, path: &Path, split: &'static str, rows: &Split) -> Result<(), Error> {
-        if rows.free.is_empty() {
+    /// Columns beside the outputs, one for each or none.
+    fn validate_beside(
+        &self,
+        path: &Path,
+        split: &'static str,
+        (called, columns): (&'static str, &[Vec<f32>]),
+        rows: usize,
+    ) -> Result<(), Error> {
+        if columns.is_empty() {
             return Ok(());
         }
-        let (found, expected) = (rows.free.len(), self.outputs.len());
+        let (found, expected) = (columns.len(), self.outputs.len());
         if found != expected {
             return Err(Error::ColumnCount { path: path.into(), split, found, expected });
         }
-        for column in &rows.free {
-            validate_values(path, split, FREE, column, rows.rows())?;
-            if let Some(row) = column.iter().position(|free| *free < 0.0) {
+        for column in columns {
+            validate_values(path, split, called, column, rows)?;
+            if let Some(row) = column.iter().position(|error| *error < 0.0) {
                 let value = column[row];
-                return Err(Error::BadWeight { path: path.into(), split, row: row + 1, value });
+                return Err(Error::Negative {
+                    path: path.into(),
+                    split,
+                    called,
+                    row: row + 1,
+                    value,
+                });
             }
         }
         Ok(())
@@ -160,7 +176,10 @@ impl Dataset {
             validate_values(path, split, &column.name, values, rows.rows())?;
         }
         validate_weights(path, split, rows)?;
-        self.validate_free(path, split, rows)?;
+        for beside in [("free errors", &rows.free), ("standard errors", &rows.standard_errors)] {
+            let (called, columns) = beside;
+            self.validate_beside(path, split, (called, columns), rows.rows())?;
+        }
         let points = rows.grid.iter().try_fold(1usize, |product, &n| product.checked_mul(n));
         let fits = rows.grid.len() == self.inputs.len() && points == Some(rows.rows());
         if !rows.grid.is_empty() && !fits {
@@ -220,9 +239,6 @@ pub fn check_columns<'a>(
         columns => Err(Error::TooManyColumns { path: path.into(), columns }),
     }
 }
-
-/// What a column of free errors is called in messages.
-const FREE: &str = "free errors";
 
 fn validate_values(
     path: &Path,

@@ -54,12 +54,17 @@ impl Dataset {
     /// Some columns of a split, the first so many of them inputs.
     fn pick(&self, split: &Split, indices: &[usize], inputs: usize, same_inputs: bool) -> Split {
         let column = |&index: &usize| split.columns.get(index).cloned();
-        // Only outputs have free errors, and they stay outputs.
-        let free = |&index: &usize| split.free.get(index.checked_sub(self.inputs.len())?).cloned();
+        // Only outputs have columns beside them, and they stay outputs.
+        let beside = |columns: &[Vec<f32>]| {
+            let column =
+                |&index: &usize| columns.get(index.checked_sub(self.inputs.len())?).cloned();
+            indices[inputs..].iter().filter_map(column).collect()
+        };
         Split {
             columns: indices.iter().filter_map(column).collect(),
             weights: split.weights.clone(),
-            free: indices[inputs..].iter().filter_map(free).collect(),
+            free: beside(&split.free),
+            standard_errors: beside(&split.standard_errors),
             grid: if same_inputs { split.grid.clone() } else { Vec::new() },
         }
     }

@@ -19,6 +19,8 @@ pub struct Samples {
     /// Inputs, outputs, each output's weights, and where errors may be free, each output's free errors;
     /// `blocks` each.
     values: Vec<Block>,
+    /// Of each output's values; none where they are exact.
+    standard_errors: Vec<Vec<f32>>,
     total_weight: f64,
 }
 
@@ -45,6 +47,8 @@ impl Samples {
         for _ in 0..outputs {
             push_column(&mut values, rows, |row| split.weight(row), |_| 0.0);
         }
+        let picked =
+            |errors: &Vec<f32>| rows.iter().map(|&row| errors[row as usize]).collect::<Vec<f32>>();
         let total_weight: f64 = rows.iter().map(|&row| f64::from(split.weight(row as usize))).sum();
         Samples {
             rows: rows.len(),
@@ -52,6 +56,7 @@ impl Samples {
             inputs,
             outputs,
             values,
+            standard_errors: split.standard_errors.iter().map(picked).collect(),
             total_weight: total_weight * outputs as f64,
         }
     }
@@ -139,6 +144,11 @@ impl Samples {
     /// If there is no such output.
     pub fn weights(&self, output: usize) -> &[f32] {
         &bytemuck::cast_slice(self.weight(output))[..self.rows]
+    }
+
+    /// The standard errors of an output's values, sample by sample; none where they are exact.
+    pub fn standard_errors(&self, output: usize) -> Option<&[f32]> {
+        self.standard_errors.get(output).map(Vec::as_slice)
     }
 
     pub(super) fn weight(&self, output: usize) -> &[Block] {

@@ -2,6 +2,7 @@
 
 use super::Fitter;
 use super::minimax::errors;
+use crate::dataset::Split;
 use crate::eval::{OutputError, Samples, Tape, Values, relative_floor};
 use crate::program::{Draft, Program};
 
@@ -14,7 +15,7 @@ const ROUNDING: f64 = 4.0 / (1 << 24) as f64;
 pub(super) struct Comparison<'a> {
     samples: &'a Samples,
     by_maximum: bool,
-    /// By output: the weighted sum of squares, or the largest error, that is rounding.
+    /// By output: the weighted sum of squares, or the largest error, that is rounding or within standard errors.
     rounding: Vec<f64>,
     values: Values,
 }
@@ -31,14 +32,18 @@ impl<'a> Comparison<'a> {
     }
 
     fn new(samples: &'a Samples, by_maximum: bool) -> Comparison<'a> {
-        let squares = |output: usize| {
-            let weighed = samples.targets(output).iter().zip(samples.weights(output));
-            let floor = relative_floor(samples.targets(output));
-            weighed.map(move |(&y, &weight)| f64::from(weight) * rounding_of(y, floor).powi(2))
-        };
-        let rounding = (0..samples.outputs()).map(|output| match by_maximum {
-            true => squares(output).fold(0.0, f64::max).sqrt(),
-            false => squares(output).sum(),
+        let rounding = (0..samples.outputs()).map(|output| {
+            let targets = samples.targets(output);
+            let uncertainty = Uncertainty {
+                targets,
+                floor: relative_floor(targets),
+                standard_errors: samples.standard_errors(output),
+            };
+            let weights = samples.weights(output);
+            match by_maximum {
+                true => uncertainty.largest(|row| f64::from(weights[row]).sqrt()),
+                false => uncertainty.sum_of_squares(|row| weights[row].into()),
+            }
         });
         let rounding = rounding.collect();
         Comparison { samples, by_maximum, rounding, values: Values::default() }
@@ -63,17 +68,65 @@ impl<'a> Comparison<'a> {
     }
 }
 
-/// The errors that are rounding, of an output with these values.
-pub fn rounding_errors(values: &[f32]) -> OutputError {
-    let floor = relative_floor(values);
-    let largest = values.iter().map(|&y| rounding_of(y, floor)).fold(0.0, f64::max);
-    let squares = values.iter().map(|&y| rounding_of(y, floor).powi(2)).sum::<f64>();
-    let rmse = (squares / values.len().max(1) as f64).sqrt();
-    let (weighted, visible) = (Some(rmse), Some(rmse));
-    OutputError { rmse, max: largest, relative: ROUNDING, weighted, visible }
+/// By how much an output's values may be off without any formula being to blame.
+struct Uncertainty<'a> {
+    targets: &'a [f32],
+    /// Where errors below are not relative.
+    floor: f64,
+    standard_errors: Option<&'a [f32]>,
 }
 
-/// Of a value, where errors below `floor` are not relative.
-fn rounding_of(y: f32, floor: f64) -> f64 {
-    ROUNDING * f64::from(y.abs()).max(floor)
+impl Uncertainty<'_> {
+    fn rounding(&self, row: usize) -> f64 {
+        ROUNDING * self.magnitude(row)
+    }
+
+    fn magnitude(&self, row: usize) -> f64 {
+        f64::from(self.targets[row].abs()).max(self.floor)
+    }
+
+    fn standard_error(&self, row: usize) -> f64 {
+        self.standard_errors.map_or(0.0, |errors| errors[row].into())
+    }
+
+    /// What the weighted sum of squared errors of the very law hardly exceeds: of rounding, and of standard errors its
+    /// mean and two of its own standard deviations.
+    fn sum_of_squares(&self, weight: impl Fn(usize) -> f64) -> f64 {
+        let rows = || 0..self.targets.len();
+        let variance = |row: usize| weight(row) * self.standard_error(row).powi(2);
+        let mean = |row| (weight(row) * self.rounding(row).powi(2)).max(variance(row));
+        let spread = (2.0 * rows().map(|row| variance(row).powi(2)).sum::<f64>()).sqrt();
+        rows().map(mean).sum::<f64>() + 2.0 * spread
+    }
+
+    /// The same of its largest scaled error: the largest of so many normal ones is about √(2 ln n).
+    fn largest(&self, scale: impl Fn(usize) -> f64) -> f64 {
+        let times = (2.0 * (self.targets.len() as f64).ln()).sqrt();
+        let error = |row| self.rounding(row).max(times * self.standard_error(row)) * scale(row);
+        (0..self.targets.len()).map(error).fold(0.0, f64::max)
+    }
+}
+
+/// The errors of an output on a split that no formula can be blamed for: those of rounding, and the standard
+/// errors of its values.
+pub fn rounding_errors(split: &Split, inputs: usize, output: usize) -> OutputError {
+    let targets = &split.columns[inputs + output];
+    let uncertainty = Uncertainty {
+        targets,
+        floor: relative_floor(targets),
+        standard_errors: split.standard_errors.get(output).map(Vec::as_slice),
+    };
+    let rows = targets.len().max(1) as f64;
+    let weights = (0..targets.len()).map(|row| f64::from(split.weight(row))).sum::<f64>();
+    let root = |weight: &dyn Fn(usize) -> f64, total: f64| {
+        (uncertainty.sum_of_squares(weight) / total).sqrt()
+    };
+    let weighted = root(&|row| split.weight(row).into(), weights);
+    OutputError {
+        rmse: root(&|_| 1.0, rows),
+        max: uncertainty.largest(|_| 1.0),
+        relative: root(&|row| uncertainty.magnitude(row).powi(-2), rows),
+        weighted: Some(weighted),
+        visible: Some(weighted),
+    }
 }

@@ -135,8 +135,10 @@ impl<'a> View<'a> {
         let open = self.open_inputs().count();
         let mut columns = split.columns[..open].to_vec();
         let mut row_values = Vec::new();
+        let mut standard_errors = Vec::new();
         for (output, program) in &self.outputs {
             let mut combined = Vec::with_capacity(split.rows());
+            let mut errors = Vec::new();
             for row in 0..split.rows() {
                 self.row_into(&split, row, &mut row_values);
                 let value = Double.evaluate(program, &row_values)[0];
@@ -151,8 +153,12 @@ impl<'a> View<'a> {
                     });
                 }
                 combined.push(value as f32);
+                if !split.standard_errors.is_empty() {
+                    errors.push(self.standard_error(&split, row, program, &mut row_values) as f32);
+                }
             }
             columns.push(combined);
+            standard_errors.extend((!errors.is_empty()).then_some(errors));
         }
         let mut free = Vec::new();
         if let Some(steps) = &self.steps {
@@ -160,7 +166,28 @@ impl<'a> View<'a> {
                 free.push(self.free_errors(which, steps, output, values)?);
             }
         }
-        Ok(Split { columns, free, ..split })
+        Ok(Split { columns, free, standard_errors, ..split })
+    }
+
+    /// The standard error of an expression of outputs that err independently, to first order.
+    fn standard_error(
+        &self,
+        split: &Split,
+        row: usize,
+        program: &Program,
+        values: &mut Vec<f64>,
+    ) -> f64 {
+        self.row_into(split, row, values);
+        let value = Double.evaluate(program, values)[0];
+        let errors = split.standard_errors.iter().enumerate().map(|(output, errors)| {
+            let place = self.inputs.len() + output;
+            let known = values[place];
+            values[place] += f64::from(errors[row]);
+            let change = Double.evaluate(program, values)[0] - value;
+            values[place] = known;
+            change * change
+        });
+        errors.sum::<f64>().sqrt()
     }
 
     fn free_errors(
@@ -209,6 +236,7 @@ pub(super) fn gather(split: &Split, rows: &[usize]) -> Split {
     Split {
         columns: split.columns.iter().map(pick).collect(),
         weights: if split.weights.is_empty() { Vec::new() } else { pick(&split.weights) },
+        standard_errors: split.standard_errors.iter().map(pick).collect(),
         ..Split::default()
     }
 }

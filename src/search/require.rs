@@ -378,7 +378,8 @@ fn with_rows(split: &Split, other: &Split, rows: &[u32]) -> Split {
         to.extend(rows.iter().map(|&row| from[row as usize]));
     }
     let length = extended.rows();
-    extended.free.iter_mut().for_each(|free| free.resize(length, 0.0));
+    let beside = extended.free.iter_mut().chain(&mut extended.standard_errors);
+    beside.for_each(|column| column.resize(length, 0.0));
     if !extended.weights.is_empty() {
         extended.weights.resize(length, 1.0);
     }

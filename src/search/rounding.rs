@@ -42,8 +42,8 @@ impl Rounding {
     pub fn of(problem: &Problem) -> Rounding {
         let dataset = problem.dataset;
         Rounding([&dataset.search, &dataset.validation].map(|split| {
-            let outputs = &split.columns[dataset.inputs.len()..];
-            outputs.iter().map(|values| rounding_errors(values)).collect()
+            let outputs = 0..dataset.outputs.len();
+            outputs.map(|output| rounding_errors(split, dataset.inputs.len(), output)).collect()
         }))
     }
 

@@ -158,14 +158,15 @@ fn finite() -> impl Strategy<Value = f32> {
     NORMAL | SUBNORMAL | ZERO | POSITIVE | NEGATIVE
 }
 
-fn split(columns: usize) -> impl Strategy<Value = Split> {
+fn split(columns: usize, outputs: usize) -> impl Strategy<Value = Split> {
     (1usize..20, any::<bool>()).prop_flat_map(move |(rows, weighted)| {
         let values = proptest::collection::vec(proptest::collection::vec(finite(), rows), columns);
         let weights = proptest::collection::vec(0.25f32..4.0, if weighted { rows } else { 0 });
-        (values, weights).prop_map(|(columns, weights)| Split {
-            columns,
-            weights,
-            ..Split::default()
+        (values, weights).prop_map(move |(columns, weights)| {
+            // Errors of each output, where rows weigh something.
+            let outputs = if weighted { outputs } else { 0 };
+            let standard_errors = vec![weights.clone(); outputs];
+            Split { columns, weights, standard_errors, ..Split::default() }
         })
     })
 }
@@ -175,7 +176,7 @@ fn datasets() -> impl Strategy<Value = Dataset> {
     let units = any::<String>().prop_filter("a unit", |unit| check_text(unit).is_ok());
     (1usize..4, 1usize..4, names, units).prop_flat_map(|(inputs, outputs, name, unit)| {
         let columns = inputs + outputs;
-        (split(columns), split(columns), -1e9..0.0, 0.0..1e9).prop_map(
+        (split(columns, outputs), split(columns, outputs), -1e9..0.0, 0.0..1e9).prop_map(
             move |(search, validation, low, high)| {
                 let described = |index: usize| Column {
                     name: format!("column_{index}"),

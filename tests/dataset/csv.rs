@@ -42,6 +42,23 @@ fn imports_columns_called_like_operations_in_the_order_asked_for() {
 }
 
 #[test]
+fn imports_standard_errors() {
+    let text = "x,y_se,y,z\n1,0.5,3,9\n2,1.5,4,8\n";
+    let dataset = import_text(text, &InputColumns::Count(1)).unwrap();
+    assert_eq!(names(&dataset.outputs), ["y", "z"]);
+    assert_eq!(dataset.search.standard_errors, [[0.5, 1.5], [0.0, 0.0]]);
+    // Where there is no output of that name, or it is asked for as an input, it is a column as others.
+    let other = import_text("x,w_se,y\n1,2,3\n4,5,6\n", &InputColumns::Count(1)).unwrap();
+    assert_eq!(names(&other.outputs), ["w_se", "y"]);
+    let as_input = import_text(text, &named(&["y_se"])).unwrap();
+    assert_eq!(names(&as_input.outputs), ["x", "y", "z"]);
+    assert!(as_input.search.standard_errors.is_empty());
+    let negative = import_text("x,y,y_se\n1,1,3\n\n1,1,-3\n", &InputColumns::Count(1));
+    let negative = negative.unwrap_err().to_string();
+    assert!(negative.contains("line 4, column `y_se`: -3 is negative"), "{negative}");
+}
+
+#[test]
 fn imports_weights() {
     let text = "x,weight,y\n1,0.5,3\n2,1.5,4\n";
     let dataset = import_text(text, &InputColumns::Count(1)).unwrap();
