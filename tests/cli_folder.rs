@@ -59,12 +59,16 @@ fn running(folder: &Path, out: &str) -> Child {
     let args = ["search", "d.bin", "--time", "60s", "--islands", "1", "--out", out];
     let mut command = command(folder, &args);
     let child = command.stdout(Stdio::piped()).stderr(Stdio::piped()).spawn().unwrap();
+    await_checkpoint(&folder.join(out));
+    child
+}
+
+fn await_checkpoint(run: &Path) {
     let start = Instant::now();
-    while !folder.join(out).join("checkpoint.bin").exists() {
+    while !run.join("checkpoint.bin").exists() {
         assert!(start.elapsed() < Duration::from_secs(20), "no checkpoint");
         std::thread::sleep(Duration::from_millis(5));
     }
-    child
 }
 
 fn signal(child: &Child, signal: &str) {
@@ -206,6 +210,30 @@ fn signals_that_end_a_process_keep_what_was_found() {
         assert!(text(&output.stdout).contains("cycles"), "{name}");
         succeed(here, &["front", name.trim_start_matches('-')]);
     }
+}
+
+/// As under `nohup`: a closed terminal ends nothing, but what asks for an end is heard.
+#[cfg(target_os = "linux")]
+#[test]
+fn where_hangups_are_ignored_other_signals_are_heard() {
+    let folder = folder();
+    let here = folder.path();
+    let program = Command::cargo_bin("lgp").unwrap().get_program().to_owned();
+    let script = format!(
+        "trap '' HUP; exec '{}' search d.bin --time 60s --islands 1 --out run",
+        program.display()
+    );
+    let mut command = Command::new("sh");
+    command.current_dir(here).args(["-c", &script]).stdout(Stdio::piped()).stderr(Stdio::piped());
+    let mut child = command.spawn().unwrap();
+    await_checkpoint(&here.join("run"));
+    signal(&child, "-HUP");
+    std::thread::sleep(Duration::from_millis(500));
+    assert!(child.try_wait().unwrap().is_none(), "a hangup has ended it");
+    signal(&child, "-TERM");
+    let output = child.wait_with_output().unwrap();
+    assert_eq!(output.status.code(), Some(130), "{}", text(&output.stderr));
+    assert!(text(&output.stdout).contains("cycles"));
 }
 
 /// Writing fails beyond so many bytes, as on a full disk.

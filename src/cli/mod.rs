@@ -15,6 +15,7 @@ mod front;
 mod generate;
 mod import;
 mod info;
+mod interrupts;
 mod inventory;
 mod list;
 mod merge;

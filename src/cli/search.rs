@@ -3,8 +3,10 @@ use super::finish;
 use super::plan::Plan;
 use super::run_folder::{self, PartialRun};
 use super::timings::Timings;
-use super::{Common, Exit, Failure, columns::Columns, duration, refusals, report, tiers};
-use crate::deadline::{Deadline, Stop};
+use super::{
+    Common, Exit, Failure, columns::Columns, duration, interrupts, refusals, report, tiers,
+};
+use crate::deadline::Deadline;
 use crate::fit::Measure;
 use crate::report::table::{Published, front_table};
 use crate::search::{
@@ -105,7 +107,7 @@ pub fn run(args: &Args, common: &Common) -> Result<(), Failure> {
     let incumbents = subject.published(&run.dataset, &profile)?;
     let problem = Problem::new(dataset, &grammar, &profile, &run.settings);
     timings.note("reading");
-    let stop = watch_for_interrupts();
+    let stop = interrupts::watch();
     // One that was killed before its first candidate begins once more.
     let begun = checkpoint.filter(|checkpoint| checkpoint.search.counts().considered > 0);
     let before = if begun.is_some() { run.seconds } else { 0.0 };
@@ -196,33 +198,6 @@ fn enumerate(
 fn share(text: &str) -> Result<f64, String> {
     let share = text.parse().ok().filter(|share| (0.0..=1.0).contains(share));
     share.ok_or_else(|| "a share is from 0 to 1".into())
-}
-
-/// Once for the search, once for what follows it; then nothing is waited for.
-const REQUESTS: usize = 2;
-
-/// Ctrl-C, and what asks a process to end, SIGTERM and SIGHUP, stop the search.
-fn watch_for_interrupts() -> Stop {
-    let stop = Stop::default();
-    if hangups_are_ignored() {
-        return stop;
-    }
-    let seen = stop.clone();
-    // Without a handler Ctrl-C ends the process, and the last checkpoint stands.
-    let _ = ctrlc::set_handler(move || {
-        if seen.request() > REQUESTS {
-            std::process::exit(Exit::Interrupted as i32);
-        }
-    });
-    stop
-}
-
-/// Whether the process is to outlive its terminal, as under `nohup`: a handler would undo that.
-fn hangups_are_ignored() -> bool {
-    let status = std::fs::read_to_string("/proc/self/status").unwrap_or_default();
-    let ignored = status.lines().find_map(|line| line.strip_prefix("SigIgn:"));
-    let mask = ignored.and_then(|mask| u64::from_str_radix(mask.trim(), 16).ok());
-    mask.is_some_and(|mask| mask & 1 == 1)
 }
 
 fn show(

@@ -8,6 +8,7 @@ const WEIGHT: &str = "weight";
 
 /// What the name of a column of standard errors ends in.
 const STANDARD_ERROR: &str = "_se";
+
 /// Tables with fewer rows are validated on the rows they are searched on.
 const LEAST_ROWS_TO_SPLIT: usize = 16;
 

@@ -36,22 +36,27 @@ pub(super) fn beyond_rounding(
 const NEAR: f64 = 64.0;
 
 /// The errors that are rounding, by output, on the search split and the validation split.
-pub(super) struct Rounding([Vec<OutputError>; 2]);
+pub(super) struct Rounding {
+    errors: [Vec<OutputError>; 2],
+    has_standard_errors: bool,
+}
 
 impl Rounding {
     pub fn of(problem: &Problem) -> Rounding {
         let dataset = problem.dataset;
-        Rounding([&dataset.search, &dataset.validation].map(|split| {
+        let errors = [&dataset.search, &dataset.validation].map(|split| {
             let outputs = 0..dataset.outputs.len();
             outputs.map(|output| rounding_errors(split, dataset.inputs.len(), output)).collect()
-        }))
+        });
+        Rounding { errors, has_standard_errors: !dataset.search.standard_errors.is_empty() }
     }
 
     /// Whether every output errs by hardly more than rounding on the search split: law and formula may round
-    /// differently.
+    /// differently. Within the standard errors of data no law is known.
     pub fn covers(&self, score: &Score, measure: Measure) -> bool {
-        let pairs = score.search.iter().zip(&self.0[0]);
-        pairs.into_iter().all(|(error, least)| error.of(measure) <= NEAR * least.of(measure))
+        let mut pairs = score.search.iter().zip(&self.errors[0]);
+        !self.has_standard_errors
+            && pairs.all(|(error, least)| error.of(measure) <= NEAR * least.of(measure))
     }
 
     /// A score none of whose errors is below rounding.
@@ -59,7 +64,7 @@ impl Rounding {
         let raised = |errors: &[OutputError], rounding: &[OutputError]| {
             errors.iter().zip(rounding).map(|(error, least)| larger(error, least)).collect()
         };
-        let [search, validation] = &self.0;
+        let [search, validation] = &self.errors;
         Score {
             search: raised(&score.search, search),
             validation: raised(&score.validation, validation),
