@@ -158,3 +158,12 @@ fn members_win_by_more_than_standard_errors() {
     }
     assert!(plain.members.len() > 2, "noise is fitted where it is not told: {plain:?}");
 }
+
+/// Nothing is left of constants that met when what stood between them was dropped as idle.
+#[test]
+fn constants_that_meet_leave_no_noise() {
+    let data = sampled(&["n", "h"], &["y"], &[|x| x[0] * x[1] / std::f64::consts::TAU]);
+    let guess = "y = 0.159155*abs(-0.6 - h*n) - 0.0954935";
+    let (formula, constants) = last(&front(&data, &[guess], 0, Measure::Rmse), &data.names());
+    assert_eq!(constants.len(), 1, "{formula}");
+}

@@ -1,7 +1,7 @@
 //! What follows a search: its formulas polished and judged, the most valuable first, as long as there is
 //! time.
 
-use super::polish::{as_found, laws_in_their_units, polish, promising};
+use super::polish::{as_found, polish, promising, with_short_laws};
 use super::rounding::beyond_rounding;
 use super::{Front, FrontMember, Problem, Search};
 use crate::archive::Member;
@@ -108,7 +108,7 @@ impl Front {
     ) -> Front {
         let most = search.settings().max_cost;
         let members = members.filter(|member| member.cost <= most);
-        let members = laws_in_their_units(members.collect(), problem, measure);
+        let members = with_short_laws(members.collect(), problem, measure);
         Front::from_members(beyond_rounding(members, problem, measure), measure)
     }
 }

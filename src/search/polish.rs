@@ -69,16 +69,14 @@ pub(super) fn polish(
     })
 }
 
-/// Constants with few digits in the columns' own units, where others were searched: only of formulas
-/// that err by hardly more than rounding, since of all others units shall change no bit of the errors.
-pub(super) fn laws_in_their_units(
+/// The constants of laws once more, as they are shown: with few digits in the columns' own units, where others were
+/// searched, and without what is left of two that met when something idle between them was dropped. Laws are formulas that
+/// err by hardly more than rounding; of all others units shall change no bit of the errors.
+pub(super) fn with_short_laws(
     members: Vec<FrontMember>,
     problem: &Problem,
     measure: Measure,
 ) -> Vec<FrontMember> {
-    if problem.scales.is_none() {
-        return members;
-    }
     let rounding = Rounding::of(problem);
     if !members.iter().any(|member| rounding.covers(&member.score, measure)) {
         return members;

@@ -102,7 +102,7 @@ impl<'a> Problem<'a> {
         self.checks.samples(self.dataset, measure, &rows)
     }
 
-    /// The error over all outputs that a loss stands for, as [`FrontMember::search_error`] shows it.
+    /// The error over all outputs that a loss stands for, as [`super::FrontMember::search_error`] shows it.
     pub fn error(&self, loss: f64) -> f64 {
         loss.sqrt() * self.unit
     }
