@@ -199,6 +199,10 @@ fn the_dataset_is_as_its_recipe_says() {
     let made = Dataset::load(&path("datasets/hammon.bin")).unwrap();
     assert_eq!(Recipe::parse(&made.recipe).unwrap(), recipe);
     assert_eq!([made.search.rows(), made.validation.rows()], [3584, 6561]);
+    for split in [&made.search, &made.validation] {
+        let lengths = split.standard_errors.iter().map(Vec::len);
+        assert_eq!(lengths.collect::<Vec<_>>(), [split.rows(); 2]);
+    }
     // A quick run differs by its noise alone.
     let mut quick = recipe;
     quick.set("paths", "2000").unwrap();

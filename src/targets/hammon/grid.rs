@@ -120,7 +120,14 @@ impl Grid {
         }
         let mean = weights.iter().sum::<f64>() / weights.len() as f64;
         let weights = weights.iter().map(|weight| (weight / mean) as f32).collect();
-        Split { columns, weights, ..Split::default() }
+        let errors = |of: fn(&Lobe) -> Estimate| -> Vec<f32> {
+            lobes.iter().map(|lobe| of(lobe).error as f32).collect()
+        };
+        let standard_errors = match standard_errors_as_columns {
+            true => Vec::new(),
+            false => vec![errors(|lobe| lobe.single), errors(|lobe| lobe.multi)],
+        };
+        Split { columns, weights, standard_errors, ..Split::default() }
     }
 
     /// What the rows' cells measure (trapezoidal), up to a factor.

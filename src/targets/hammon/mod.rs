@@ -61,7 +61,7 @@ pub(super) const TARGET: Target = Target {
         },
         Parameter {
             name: "standard_errors",
-            description: "weigh rows by them, or give them as columns single_se, multi_se",
+            description: "keep them beside the outputs and weigh rows by them, or give them as outputs single_se, multi_se",
             default: AS_WEIGHTS,
             choices: Choices::OneOf(&[AS_WEIGHTS, AS_COLUMNS]),
         },
