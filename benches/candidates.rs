@@ -2,12 +2,10 @@
 //!
 //! `RAYON_NUM_THREADS=1 cargo run --release --example candidates [GENERATIONS]`
 
-use lgp::cost::Profile;
 use lgp::dataset::Dataset;
 use lgp::eval::Samples;
 use lgp::fit::{Fitter, Stop};
-use lgp::grammar::Grammar;
-use lgp::search::{Problem, Search, Settings};
+use lgp::search::{Method, Problem, Search};
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 use std::error::Error;
@@ -19,13 +17,11 @@ const STOP: Stop = Stop { max_steps: 50, min_gain: 1e-3 };
 fn main() -> Result<(), Box<dyn Error>> {
     let generations: u64 = std::env::args().nth(1).map_or(Ok(60), |text| text.parse())?;
     let dataset = Dataset::load("datasets/dfg.bin".as_ref())?;
-    let (grammar, profile) = (Grammar::find("shader")?, Profile::find("gcn")?);
-    let settings = Settings::default();
-    let problem = Problem::new(&dataset, &grammar, &profile, &settings);
-    let mut search = Search::new(settings);
+    let problem = Problem::of(dataset.clone()).build()?;
+    let mut search = Search::new(problem, Method::default())?;
     let start = Instant::now();
     for _ in 0..generations {
-        search.advance(&problem);
+        search.advance();
     }
     let (counts, elapsed) = (search.counts(), start.elapsed().as_secs_f64());
     println!("considered            {:8.0} /s", counts.considered as f64 / elapsed);

@@ -18,7 +18,8 @@ use lgp::cost::Profile;
 use lgp::emit::{Language, Snippet, emit};
 use lgp::fit::Measure;
 use lgp::program::{Names, Program, parse};
-use lgp::search::{Front, Run};
+use lgp::run::Run;
+use lgp::search::Front;
 use std::path::Path;
 use vulkan::Gpu;
 

@@ -22,37 +22,29 @@
 //! | [`fit`] | error measures; derivatives by constants, Levenberg–Marquardt, the least maximum; constants with few digits; models of one's own |
 //! | [`stability`] | verdicts: what is proved of a formula over its whole domain, or refuted |
 //! | [`scene`] | what a use needs of a dataset: ranges, fixed inputs, histograms, combined outputs |
-//! | [`archive`], [`search`] | the Pareto archive; islands, variation, fronts; runs on disk, their union, what recurs |
+//! | [`archive`], [`search`] | the Pareto archive; problems, islands, variation, fronts |
 //! | [`emit`] | formulas as HLSL, WGSL, GLSL, MSL, and back; as C, Rust, Python, LaTeX |
+//! | [`wording`] | fronts, verdicts and examinations in words |
+//! | [`run`] | a search under way, from its budget to its fronts; its record and folder; unions, what recurs |
 //! | [`quadrature`], [`microfacet`], [`targets`] | integration, BRDF models, ground truths |
-//! | [`report`] | tables, plots, maps, the page of a run, spheres |
+//! | [`report`] | plots, maps, the page of a run, spheres |
 //! | [`cli`] | a file a subcommand |
 //!
 //! # A search in ten lines
 //! ```
-//! use lgp::{cost::Profile, dataset::{Column, Dataset, Split}, grammar::Grammar};
-//! use lgp::search::{Front, Problem, Search, Settings};
+//! use lgp::dataset::{Dataset, axis};
+//! use lgp::emit::Language;
+//! use lgp::run::{Budget, Session};
+//! use lgp::search::{Method, Problem};
 //!
-//! let column = |name: &str, domain| Column { name: name.into(), unit: "1".into(), domain };
-//! let schlick = |i: u32| (1.0 - (i as f32 + 0.5) / 64.0).powi(5);
-//! let cosines = (0..64).map(|i| (i as f32 + 0.5) / 64.0).collect();
-//! let split = Split { columns: vec![cosines, (0..64).map(schlick).collect()], ..Split::default() };
-//! let data = Dataset {
-//!     name: "schlick".into(),
-//!     recipe: "(1 - cos)^5".into(),
-//!     inputs: vec![column("v_dot_h", [0.0, 1.0])],
-//!     outputs: vec![column("weight", [0.0, 1.0])],
-//!     search: split.clone(),
-//!     validation: split,
-//! };
-//! let (grammar, gpu) = (Grammar::find("polynomial")?, Profile::find("gcn")?);
-//! let settings = Settings { islands: 2, max_cost: 8.0, ..Settings::default() };
-//! let problem = Problem::new(&data, &grammar, &gpu, &settings);
-//! let mut search = Search::new(settings);
-//! (0..10).for_each(|_| search.advance(&problem));
-//! for formula in Front::of(&search, &problem).members {
-//!     println!("{} cycles, RMSE {}: {}", formula.cost, formula.search_error().rmse, formula.formula);
-//! }
+//! let schlick = |[v_dot_h]: [f64; 1]| [(1.0 - v_dot_h).powi(5)];
+//! let data = Dataset::sampled([axis("v_dot_h", 0.0..=1.0)], ["weight"], schlick)?;
+//! let problem = Problem::of(data).gpu("gcn").max_cost(8.0).build()?;
+//! let budget = Budget { generations: Some(10), ..Budget::default() };
+//! let mut session = Session::new(problem, Method::default())?.budget(budget);
+//! let outcome = session.run(|progress| eprintln!("{:.1} s", progress.point.seconds))?;
+//! let best = outcome.front.within(Some(4.0), None).expect("a formula of 4 cycles");
+//! println!("{}", outcome.snippet(best, Language::Wgsl));
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 
@@ -79,6 +71,9 @@ pub mod archive;
 pub mod search;
 
 pub mod emit;
+pub mod wording;
+
+pub mod run;
 
 pub mod microfacet;
 pub mod quadrature;

@@ -8,7 +8,8 @@
 use lgp::cost::Profile;
 use lgp::dataset::{Column, Dataset, Split};
 use lgp::grammar::Grammar;
-use lgp::search::{Census, Checkpoint, Problem, Run, Search, Settings};
+use lgp::run::{Census, Checkpoint, Run};
+use lgp::search::{Goal, Method, Problem, Search};
 use std::path::{Path, PathBuf};
 
 fn golden() -> PathBuf {
@@ -31,32 +32,29 @@ fn dataset() -> Dataset {
 
 /// A checkpoint in which every part of a search has some content.
 fn written() -> Vec<u8> {
-    let (data, grammar) = (dataset(), Grammar::find("shader").unwrap());
-    let profile = Profile::find("gcn").unwrap();
+    let data = dataset();
     let names = data.names();
-    let settings = Settings {
-        islands: 1,
-        candidates: 40,
-        max_cost: 3.0,
-        transforms: vec![None],
-        ..Settings::default()
-    };
-    let problem = Problem::new(&data, &grammar, &profile, &settings);
-    let mut search = Search::new(settings);
-    search.enumerate(&problem, 1.0, 4000);
-    search.advance(&problem);
+    let (goal, method) = (
+        Goal { max_cost: 3.0, transforms: vec![None], ..Goal::default() },
+        Method { islands: 1, candidates: 40, ..Method::default() },
+    );
+    let problem = Problem::of(data.clone()).goal(goal).build().unwrap();
+    let mut search = Search::new(problem, method).unwrap();
+    search.enumerate(1.0, 4000);
+    search.advance();
     let run = Run {
         name: data.name.clone(),
         inputs: data.inputs.clone(),
         outputs: data.outputs.clone(),
-        settings: search.settings().clone(),
-        rules: Some(grammar),
-        profile: Some(profile),
+        goal: search.problem().goal().clone(),
+        method: search.method().clone(),
+        rules: Some(Grammar::clone(search.problem().grammar())),
+        profile: Some(Profile::clone(search.problem().profile())),
         ..Run::default()
     };
     let mut census = Census::default();
     search.archive().members().iter().for_each(|one| census.count(&one.draft, &names, 0.5));
-    Checkpoint { run, search, trace: "seconds\n".into(), census }.to_bytes()
+    Checkpoint::bytes(&run, search.state(), "seconds\n", &census)
 }
 
 fn read(bytes: &[u8]) -> Result<Checkpoint, String> {
@@ -71,8 +69,8 @@ fn a_committed_checkpoint_is_read_as_it_was_written() {
     let bytes = std::fs::read(golden()).unwrap();
     let checkpoint = read(&bytes).expect("raise LAYOUT, and write the golden checkpoint anew");
     assert!(checkpoint.to_bytes() == bytes, "raise LAYOUT, and write the golden checkpoint anew");
-    assert_eq!(checkpoint.search.generation(), 1);
-    assert!(!checkpoint.search.archive().members().is_empty());
+    assert_eq!(checkpoint.state.generation(), 1);
+    assert!(checkpoint.state.counts().admitted > 0);
 }
 
 fn with_checksum(mut content: Vec<u8>) -> Vec<u8> {
@@ -104,8 +102,7 @@ fn a_checkpoint_of_another_version_is_refused_as_such() {
 fn a_checkpoint_that_was_tampered_with_is_refused_or_whole() {
     let bytes = std::fs::read(golden()).unwrap();
     let content = &bytes[..bytes.len() - 32];
-    let (data, grammar) = (dataset(), Grammar::find("shader").unwrap());
-    let profile = Profile::find("gcn").unwrap();
+    let data = dataset();
     // Most of it is what the island remembers; the rest decides.
     let zeros = |window: &[u8]| window.iter().all(|&byte| byte == 0);
     let places: Vec<usize> =
@@ -129,13 +126,12 @@ fn a_checkpoint_that_was_tampered_with_is_refused_or_whole() {
         }
         match read(&with_checksum(content)) {
             Err(_) => refused += 1,
-            Ok(mut checkpoint) => {
+            Ok(Checkpoint { run, state, .. }) => {
                 read_all += 1;
-                let same = checkpoint.run.names() == data.names();
-                if same && checkpoint.search.settings().candidates <= 100 {
-                    let settings = checkpoint.search.settings().clone();
-                    let problem = Problem::new(&data, &grammar, &profile, &settings);
-                    checkpoint.search.advance(&problem);
+                let same = run.names() == data.names();
+                if same && run.method.candidates <= 100 {
+                    let problem = Problem::of(data.clone()).goal(run.goal).build().unwrap();
+                    Search::resume(problem, run.method, state).unwrap().advance();
                 }
             }
         }

@@ -2,7 +2,7 @@
 
 use assert_cmd::cargo::CommandCargoExt;
 use lgp::emit::{self, Language, Snippet};
-use lgp::search::{Census, RecordError, load_front, load_run, merge};
+use lgp::run::{Census, RecordError, load_front, load_run, merge};
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output};
 use tempfile::TempDir;

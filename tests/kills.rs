@@ -4,7 +4,7 @@
 //! at some spread evenly.
 
 use lgp::dataset::witness_file_operations;
-use lgp::search::{Checkpoint, Holding, load_front, load_run};
+use lgp::run::{Checkpoint, Holding, load_front, load_run};
 use std::path::Path;
 use std::process::{Command, ExitStatus, Stdio};
 use std::sync::atomic::{AtomicUsize, Ordering};
@@ -86,7 +86,7 @@ fn left(folder: &Path) -> Option<Left> {
     let whole = |file: &std::fs::DirEntry| !file.file_name().to_string_lossy().starts_with('.');
     let snippets = snippets.filter(whole).count();
     assert_eq!(snippets, 8 * text.matches("\"formula\"").count(), "of another front");
-    Some(Left { seed: run.settings.seed, generations: run.generations, fronts })
+    Some(Left { seed: run.method.seed, generations: run.generations, fronts })
 }
 
 /// Kills `words` again and again, from the state that `before` makes. What is left is what was there before, what
@@ -126,7 +126,7 @@ fn killed(before: &[&str], words: &str) -> usize {
         assert!(checkpoint || (found.is_none() && old.is_none()), "{words}: lost at {at}");
         if let Some(Checkpoint { run: begun, .. }) = loaded {
             // To the end that it was to have.
-            let goes_on = if Some(begun.settings.seed) == new.as_ref().map(|new| new.seed) {
+            let goes_on = if Some(begun.method.seed) == new.as_ref().map(|new| new.seed) {
                 &new
             } else {
                 &old

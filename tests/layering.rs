@@ -2,7 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
-const LAYERS: [&str; 22] = [
+const LAYERS: [&str; 24] = [
     "deadline",
     "printable",
     "suggest",
@@ -20,6 +20,8 @@ const LAYERS: [&str; 22] = [
     "archive",
     "search",
     "emit",
+    "wording",
+    "run",
     "quadrature",
     "microfacet",
     "targets",

@@ -5,8 +5,8 @@ use lgp::dataset::{Column, Dataset, Split};
 use lgp::fit::Measure;
 use lgp::grammar::Grammar;
 use lgp::program::{Names, Program};
-use lgp::report::table::{Published, front_table};
-use lgp::search::{Front, FrontMember, Problem, Requirement, Search, Settings};
+use lgp::search::{Front, FrontMember, Goal, Method, Problem, Published, Requirement, Search};
+use lgp::wording::front_table;
 
 /// Two outputs, the second `scale` times as large; weights that favour large inputs, and free errors.
 fn dataset(scale: f32) -> Dataset {
@@ -31,32 +31,24 @@ fn dataset(scale: f32) -> Dataset {
     }
 }
 
-fn searched<'a>(
-    data: &'a Dataset,
-    grammar: &'a Grammar,
-    gpu: &'a Profile,
-    settings: Settings,
-) -> (Search, Problem<'a>) {
-    let problem = Problem::new(data, grammar, gpu, &settings);
-    let mut search = Search::new(settings);
-    (0..4).for_each(|_| search.advance(&problem));
-    (search, problem)
+fn searched(data: &Dataset, grammar: &str, goal: Goal, method: Method) -> Search {
+    let grammar = Grammar::find(grammar).unwrap();
+    let problem = Problem::of(data.clone()).grammar(grammar).goal(goal).build().unwrap();
+    let mut search = Search::new(problem, method).unwrap();
+    (0..4).for_each(|_| search.advance());
+    search
 }
 
 #[test]
 fn an_archives_loss_is_the_error_shown_in_every_measure() {
-    let (grammar, gpu) = (Grammar::find("shader").unwrap(), Profile::find("gcn").unwrap());
+    let gpu = Profile::find("gcn").unwrap();
     for scale in [1.0, 1024.0, 1e6] {
         let data = dataset(scale);
         for measure in Measure::ALL {
-            let settings = Settings {
-                measure,
-                islands: 3,
-                candidates: 60,
-                max_cost: 12.0,
-                ..Settings::default()
-            };
-            let (search, problem) = searched(&data, &grammar, &gpu, settings);
+            let goal = Goal { measure, max_cost: 12.0, ..Goal::default() };
+            let method = Method { islands: 3, candidates: 60, ..Method::default() };
+            let search = searched(&data, "shader", goal, method);
+            let problem = search.problem();
             let mut compared = 0;
             for member in search.archive().members() {
                 let program = Program::verify(problem.natural(&member.draft).into_owned()).unwrap();
@@ -77,17 +69,18 @@ fn an_archives_loss_is_the_error_shown_in_every_measure() {
 /// The samples that hold a formula to an end are no part of the error.
 #[test]
 fn what_is_required_of_ends_is_no_part_of_the_error() {
-    let (grammar, gpu) = (Grammar::find("polynomial").unwrap(), Profile::find("gcn").unwrap());
+    let gpu = Profile::find("gcn").unwrap();
     let data = dataset(1.0).select(None, Some(&["square".to_owned()])).unwrap();
     for measure in [Measure::Rmse, Measure::Max, Measure::Weighted, Measure::Visible] {
-        let settings = Settings {
+        let goal = Goal {
             measure,
-            islands: 3,
             max_cost: 6.0,
             requirements: vec![Requirement::Ends { output: None, input: 0 }],
-            ..Settings::default()
+            ..Goal::default()
         };
-        let (search, problem) = searched(&data, &grammar, &gpu, settings);
+        let method = Method { islands: 3, ..Method::default() };
+        let search = searched(&data, "polynomial", goal, method);
+        let problem = search.problem();
         assert!(!search.archive().members().is_empty(), "{measure}");
         for member in search.archive().members() {
             let program = Program::verify(member.draft.clone()).unwrap();
@@ -121,7 +114,7 @@ fn a_table_shows_and_judges_by_what_was_made_small() {
         let front = Front::from_members(vec![better.clone()], measure);
         let known = Published { name: "known".into(), member: worse.clone() };
         let table = front_table(&front, &[known], &names.outputs);
-        let error = lgp::report::table::error_text(better.validation_error().of(measure));
+        let error = lgp::wording::error_text(better.validation_error().of(measure));
         let judged = format!("dominated by 1 (1 cycles, val. {measure} RMSE {error})");
         assert!(table.contains(&judged), "{judged}\n{table}");
         assert!(table.contains(&format!("{measure} RMSE")), "{table}");

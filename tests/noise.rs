@@ -1,11 +1,9 @@
 //! A member of a front wins by more than the rounding of its data: laws are found as they are.
 
-use lgp::cost::Profile;
 use lgp::dataset::{Column, Dataset, Split};
 use lgp::fit::Measure;
-use lgp::grammar::Grammar;
 use lgp::program::{Names, parse};
-use lgp::search::{Front, Problem, Search, Settings};
+use lgp::search::{Front, Goal, Method, Problem, Search};
 
 /// Samples of laws, computed in f64 and rounded, at points spread over [1, 5] in each input.
 fn sampled(inputs: &[&str], outputs: &[&str], laws: &[fn(&[f64]) -> f64]) -> Dataset {
@@ -36,15 +34,16 @@ fn sampled(inputs: &[&str], outputs: &[&str], laws: &[fn(&[f64]) -> f64]) -> Dat
 
 /// The front of what a search that starts with guesses finds in a few generations.
 fn front(data: &Dataset, guesses: &[&str], generations: u64, measure: Measure) -> Front {
-    let (grammar, gpu) = (Grammar::find("shader").unwrap(), Profile::find("gcn").unwrap());
-    let settings =
-        Settings { islands: 2, candidates: 100, max_cost: 12.0, measure, ..Settings::default() };
-    let problem = Problem::new(data, &grammar, &gpu, &settings);
-    let mut search = Search::new(settings);
+    let (goal, method) = (
+        Goal { max_cost: 12.0, measure, ..Goal::default() },
+        Method { islands: 2, candidates: 100, ..Method::default() },
+    );
+    let problem = Problem::of(data.clone()).goal(goal).build().unwrap();
+    let mut search = Search::new(problem, method).unwrap();
     let draft = |text: &&str| parse(text, &data.names()).unwrap().into_draft();
-    search.settle(&guesses.iter().map(draft).collect::<Vec<_>>(), &problem);
-    (0..generations).for_each(|_| search.advance(&problem));
-    Front::of(&search, &problem)
+    search.settle(&guesses.iter().map(draft).collect::<Vec<_>>());
+    (0..generations).for_each(|_| search.advance());
+    Front::of(&search)
 }
 
 /// What a front's last member is, and the constants that it reads.

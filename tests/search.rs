@@ -7,9 +7,8 @@ use lgp::fit::{Fitter, Measure, Stop};
 use lgp::grammar::Grammar;
 use lgp::num::Interval;
 use lgp::program::{Names, Program, Scope, parse, parse_template};
-use lgp::search::{
-    Census, Checkpoint, Front, FrontMember, Problem, Requirement, Run, Search, Settings, Transform,
-};
+use lgp::run::{Census, Checkpoint, Run};
+use lgp::search::{Front, FrontMember, Goal, Method, Problem, Requirement, Search, Transform};
 use lgp::stability::{half_error, points_in};
 
 fn dataset(name: &str, outputs: &[&str]) -> Dataset {
@@ -35,15 +34,15 @@ fn function(name: &str, end: f64, samples: u32, f: fn(f32) -> f32) -> Dataset {
     }
 }
 
-fn search(data: &Dataset, grammar: &str, generations: u64, settings: Settings) -> Front {
+fn search(data: &Dataset, grammar: &str, generations: u64, asked: (Goal, Method)) -> Front {
+    let (goal, method) = asked;
     let grammar = Grammar::find(grammar).unwrap();
-    let profile = Profile::find("gcn").unwrap();
-    let problem = Problem::new(data, &grammar, &profile, &settings);
-    let mut search = Search::new(settings);
+    let problem = Problem::of(data.clone()).grammar(grammar).goal(goal).build().unwrap();
+    let mut search = Search::new(problem, method).unwrap();
     for _ in 0..generations {
-        search.advance(&problem);
+        search.advance();
     }
-    Front::of(&search, &problem)
+    Front::of(&search)
 }
 
 fn in_pool<T: Send>(threads: usize, f: impl FnOnce() -> T + Send) -> T {
@@ -90,7 +89,7 @@ fn the_papers_bias_is_found_or_dominated() {
     let paper = parse("bias = exp2(-(7*n_dot_v + 4*roughness^2))", &data.names()).unwrap();
     let score = Score::of(&paper, &data, &mut Evaluator::default());
     assert!((score.search[0].rmse - 0.03425).abs() < 1e-5, "{score:?}");
-    let front = search(&data, "exp2", 40, Settings::default());
+    let front = search(&data, "exp2", 40, (Goal::default(), Method::default()));
     let found = front.members.iter().any(|m| m.cost <= 7.0 && m.search_error().rmse <= 0.03425);
     let costs: Vec<_> = front.members.iter().map(|m| (m.cost, m.search_error().rmse)).collect();
     assert!(found, "{costs:?}");
@@ -100,16 +99,19 @@ fn the_papers_bias_is_found_or_dominated() {
 fn a_seed_repeats_a_search_at_any_number_of_threads() {
     let data = dataset("dfg", &["scale", "bias"]);
     for (measure, generations) in [(Measure::Rmse, 8), (Measure::Max, 4)] {
-        let settings =
-            || Settings { seed: 7, migration_interval: 3, measure, ..Settings::default() };
-        let json = |threads, settings: Settings| {
-            in_pool(threads, || search(&data, "shader", generations, settings))
-                .to_json(&data.names())
+        let asked = || {
+            (
+                Goal { measure, ..Goal::default() },
+                Method { seed: 7, migration_interval: 3, ..Method::default() },
+            )
         };
-        let one = json(1, settings());
-        assert_eq!(one, json(2, settings()));
-        assert_eq!(one, json(3, settings()));
-        assert_ne!(one, json(2, Settings { seed: 8, ..settings() }));
+        let json = |threads, asked: (Goal, Method)| {
+            in_pool(threads, || search(&data, "shader", generations, asked)).to_json(&data.names())
+        };
+        let one = json(1, asked());
+        assert_eq!(one, json(2, asked()));
+        assert_eq!(one, json(3, asked()));
+        assert_ne!(one, json(2, (asked().0, Method { seed: 8, ..asked().1 })));
     }
 }
 
@@ -117,13 +119,12 @@ fn a_seed_repeats_a_search_at_any_number_of_threads() {
 #[test]
 fn the_maximum_error_can_be_searched_for() {
     let data = dataset("dfg", &["scale", "bias"]);
-    let grammar = Grammar::find("shader").unwrap();
-    let profile = Profile::find("gcn").unwrap();
-    let settings = Settings { max_cost: 16.0, measure: Measure::Max, ..Settings::default() };
-    let problem = Problem::new(&data, &grammar, &profile, &settings);
-    let mut search = Search::new(settings);
-    (0..4).for_each(|_| search.advance(&problem));
-    let front = Front::of(&search, &problem);
+    let (goal, method) =
+        (Goal { max_cost: 16.0, measure: Measure::Max, ..Goal::default() }, Method::default());
+    let problem = Problem::of(data.clone()).goal(goal).build().unwrap();
+    let mut search = Search::new(problem, method).unwrap();
+    (0..4).for_each(|_| search.advance());
+    let front = Front::of(&search);
     let all = Samples::new(&data.search, 2);
     assert!(search.archive().members().len() > 5);
     for member in search.archive().members() {
@@ -147,14 +148,13 @@ fn the_front_for_the_maximum_error_heeds_no_weights() {
     let mut data = dataset("dfg", &["bias"]);
     let minimax = |data: &Dataset| {
         let line = parse("bias = 0.5 - 0.5*n_dot_v", &data.names()).unwrap().into_draft();
-        let grammar = Grammar::find("shader").unwrap();
-        let profile = Profile::find("gcn").unwrap();
         let measure = Measure::usual(&data.search);
-        let settings = Settings { max_cost: 1.0, measure, ..Settings::default() };
-        let problem = Problem::new(data, &grammar, &profile, &settings);
-        let mut search = Search::new(settings);
-        search.settle(&[line], &problem);
-        Front::in_measure(&search, &problem, Measure::Max).members[0].search_error().max
+        let (goal, method) =
+            (Goal { max_cost: 1.0, measure, ..Goal::default() }, Method::default());
+        let problem = Problem::of(data.clone()).goal(goal).build().unwrap();
+        let mut search = Search::new(problem, method).unwrap();
+        search.settle(&[line]);
+        Front::in_measure(&search, Measure::Max).members[0].search_error().max
     };
     let unweighted = minimax(&data);
     data.search.weights = data.search.columns[0].iter().map(|x| 0.01 + x * x).collect();
@@ -168,13 +168,11 @@ fn roots_are_guarded_where_that_is_free() {
     let data = function("acos", 1.0, 64, f32::acos);
     let root = "y = sqrt(x*(x*(x*(0.077*x - 0.351) + 0.9396) - 3.1326) + 2.4671)";
     let root = parse(root, &data.names()).unwrap();
-    let grammar = Grammar::find("shader").unwrap();
-    let profile = Profile::find("gcn").unwrap();
-    let settings = Settings { max_cost: 8.0, ..Settings::default() };
-    let problem = Problem::new(&data, &grammar, &profile, &settings);
-    let mut search = Search::new(settings);
-    search.settle(&[root.into_draft()], &problem);
-    let front = Front::of(&search, &problem);
+    let (goal, method) = (Goal { max_cost: 8.0, ..Goal::default() }, Method::default());
+    let problem = Problem::of(data.clone()).goal(goal).build().unwrap();
+    let mut search = Search::new(problem, method).unwrap();
+    search.settle(&[root.into_draft()]);
+    let front = Front::of(&search);
     assert_eq!(front.members.len(), 1);
     let FrontMember { formula, verdict, .. } = &front.members[0];
     assert!(formula.contains("sqrt(abs("), "{formula}");
@@ -185,7 +183,7 @@ fn roots_are_guarded_where_that_is_free() {
 fn a_front_is_what_its_numbers_say() {
     let data = dataset("dfg", &["scale", "bias"]);
     let names = data.names();
-    let front = search(&data, "shader", 6, Settings::default());
+    let front = search(&data, "shader", 6, (Goal::default(), Method::default()));
     assert!(front.members.len() > 5);
     let profile = Profile::find("gcn").unwrap();
     for pair in front.members.windows(2) {
@@ -208,49 +206,51 @@ fn a_front_is_what_its_numbers_say() {
 #[test]
 fn a_resumed_search_goes_on_as_if_never_stopped() {
     for measure in [Measure::Rmse, Measure::Max] {
-        goes_on_as_if_never_stopped(Settings {
-            migration_interval: 2,
-            measure,
-            ..Settings::default()
-        });
+        goes_on_as_if_never_stopped((
+            Goal { measure, ..Goal::default() },
+            Method { migration_interval: 2, ..Method::default() },
+        ));
     }
 }
 
-fn goes_on_as_if_never_stopped(settings: Settings) {
+fn goes_on_as_if_never_stopped(asked: (Goal, Method)) {
+    let (goal, method) = asked;
     let data = dataset("dfg", &["bias"]);
-    let grammar = Grammar::find("shader").unwrap();
-    let profile = Profile::find("gcn").unwrap();
-    let problem = Problem::new(&data, &grammar, &profile, &settings);
-    let mut search = Search::new(settings.clone());
+    let problem = Problem::of(data.clone()).goal(goal.clone()).build().unwrap();
+    let mut search = Search::new(problem, method.clone()).unwrap();
     for _ in 0..4 {
-        search.advance(&problem);
+        search.advance();
     }
     let (inputs, outputs) = (data.inputs.clone(), data.outputs.clone());
-    let run = Run { name: "dfg".into(), inputs, outputs, settings, ..Run::default() };
-    let checkpoint =
-        Checkpoint { run, search: search.clone(), trace: String::new(), census: Census::default() };
+    let run = Run { name: "dfg".into(), inputs, outputs, goal, method, ..Run::default() };
+    let checkpoint = Checkpoint {
+        run,
+        state: search.state().clone(),
+        trace: String::new(),
+        census: Census::default(),
+    };
     let bytes = checkpoint.to_bytes();
-    let mut resumed = Checkpoint::from_bytes("checkpoint.bin".as_ref(), &bytes).unwrap().search;
+    let read = Checkpoint::from_bytes("checkpoint.bin".as_ref(), &bytes).unwrap();
+    let problem = search.problem().clone();
+    let mut resumed = Search::resume(problem, read.run.method, read.state).unwrap();
     for search in [&mut search, &mut resumed] {
         for _ in 0..5 {
-            search.advance(&problem);
+            search.advance();
         }
     }
-    let json = |search| Front::of(search, &problem).to_json(&data.names());
+    let json = |search| Front::of(search).to_json(&data.names());
     assert_eq!(json(&search), json(&resumed));
 }
 
 #[test]
 fn guesses_are_taken_up() {
     let data = dataset("dfg_paper", &["bias"]);
-    let grammar = Grammar::find("shader").unwrap();
-    let profile = Profile::find("gcn").unwrap();
-    let settings = Settings::default();
-    let problem = Problem::new(&data, &grammar, &profile, &settings);
-    let mut search = Search::new(settings);
+    let (goal, method) = (Goal::default(), Method::default());
+    let problem = Problem::of(data.clone()).goal(goal).build().unwrap();
+    let mut search = Search::new(problem, method).unwrap();
     let guess = parse("bias = exp2(-(5*n_dot_v + 5*roughness^2))", &data.names()).unwrap();
-    search.settle(&[guess.into_draft()], &problem);
-    let front = Front::of(&search, &problem);
+    search.settle(&[guess.into_draft()]);
+    let front = Front::of(&search);
     assert_eq!(front.members.len(), 1);
     assert!(front.members[0].search_error().rmse < 0.0333, "refitted");
 }
@@ -261,14 +261,14 @@ fn scale_may_depend_on_bias() {
     let data = Dataset::load(path.as_ref()).unwrap();
     let inputs = ["n_dot_v", "roughness", "bias"].map(str::to_owned);
     let data = data.select(Some(&inputs), Some(&["scale".to_owned()])).unwrap();
-    let front = search(&data, "shader", 6, Settings::default());
+    let front = search(&data, "shader", 6, (Goal::default(), Method::default()));
     assert!(front.members.iter().any(|member| member.formula.contains("bias")));
     assert_eq!(data.names(), Names::new(inputs, ["scale".to_owned()]));
 }
 
 /// A search of a few generations for `bias` alone, as a front.
-fn constrained(settings: Settings) -> Front {
-    search(&dataset("dfg", &["bias"]), "shader", 12, settings)
+fn constrained(asked: (Goal, Method)) -> Front {
+    search(&dataset("dfg", &["bias"]), "shader", 12, asked)
 }
 
 #[test]
@@ -277,9 +277,9 @@ fn every_formula_is_as_required() {
     let texts = ["range=0..1", "bias.falling=n_dot_v", "uses=exp2", "uses=roughness"];
     let requirements: Vec<Requirement> =
         texts.iter().map(|text| Requirement::parse(text, &names).unwrap()).collect();
-    let settings = Settings { max_cost: 20.0, ..Settings::default() };
-    let free = constrained(settings.clone());
-    let bound = constrained(Settings { requirements, ..settings });
+    let asked = (Goal { max_cost: 20.0, ..Goal::default() }, Method::default());
+    let free = constrained(asked.clone());
+    let bound = constrained((Goal { requirements, ..asked.0 }, asked.1));
     assert!(bound.members.len() > 3);
     let value = |member: &FrontMember, n_dot_v: f32, roughness: f32| {
         member.program.evaluate(&[n_dot_v, roughness])[0]
@@ -303,8 +303,8 @@ fn what_is_required_is_refuted_nowhere_in_the_domain() {
     let texts = ["finite", "range=0..1", "half=1e-2"];
     let read = |text: &&str| Requirement::parse(text, &data.names()).unwrap();
     let requirements = texts.iter().map(read).collect();
-    let settings = Settings { max_cost: 16.0, requirements, ..Settings::default() };
-    let front = search(&data, "shader", 10, settings);
+    let asked = (Goal { max_cost: 16.0, requirements, ..Goal::default() }, Method::default());
+    let front = search(&data, "shader", 10, asked);
     assert!(front.members.len() > 3);
     let points = points_in(&[Interval::new(0.0, 1.0); 2]);
     for member in &front.members {
@@ -323,8 +323,9 @@ fn ends_are_met() {
     let data = function("gamma", 1.6, 201, |x| x.powf(2.2));
     for measure in [Measure::Rmse, Measure::Max] {
         let requirements = vec![Requirement::parse("ends=x", &data.names()).unwrap(); 2];
-        let settings = Settings { max_cost: 8.0, requirements, measure, ..Settings::default() };
-        let front = search(&data, "shader", 10, settings);
+        let asked =
+            (Goal { max_cost: 8.0, requirements, measure, ..Goal::default() }, Method::default());
+        let front = search(&data, "shader", 10, asked);
         assert!(!front.members.is_empty(), "{measure}");
         for member in front.members {
             for x in [0.0, end] {
@@ -337,9 +338,13 @@ fn ends_are_met() {
 
 #[test]
 fn a_transformed_output_ends_in_the_inverse() {
-    let settings =
-        Settings { max_cost: 20.0, transforms: vec![Some(Transform::Log2)], ..Settings::default() };
-    for member in constrained(settings).members {
+    let asked = (
+        Goal { max_cost: 20.0, transforms: vec![Some(Transform::Log2)], ..Goal::default() },
+        Method::default(),
+    );
+    let front = constrained(asked);
+    assert!(front.members.len() > 1);
+    for member in front.members {
         let last = member.formula.rsplit("bias = ").next().unwrap();
         assert!(last.starts_with("exp2(") || last.parse::<f32>().is_ok(), "{}", member.formula);
     }
@@ -349,8 +354,11 @@ fn a_transformed_output_ends_in_the_inverse() {
 fn random_restarts_alone_find_less() {
     let data = dataset("dfg", &["bias"]);
     let least = |immigrants: f64| {
-        let settings = Settings { max_cost: 10.0, immigrants, ..Settings::default() };
-        let front = search(&data, "shader", 10, settings);
+        let asked = (
+            Goal { max_cost: 10.0, ..Goal::default() },
+            Method { immigrants, ..Method::default() },
+        );
+        let front = search(&data, "shader", 10, asked);
         front.members.last().unwrap().search_error().rmse
     };
     let (children, some, none) = (least(0.0), least(0.1), least(1.0));
@@ -360,16 +368,17 @@ fn random_restarts_alone_find_less() {
 #[test]
 fn no_formula_exceeds_the_budget() {
     let data = dataset("dfg", &["scale", "bias"]);
-    let grammar = Grammar::find("shader").unwrap();
     let profile = Profile::find("gcn:2,turing:1").unwrap();
     for (max_cost, require) in [(0.0, "finite"), (7.5, "range=0..1")] {
         let requirements = vec![Requirement::parse(require, &data.names()).unwrap()];
-        let settings = Settings { max_cost, requirements, ..Settings::default() };
-        let problem = Problem::new(&data, &grammar, &profile, &settings);
-        let mut search = Search::new(settings);
-        search.enumerate(&problem, 1.0, usize::MAX);
-        (0..5).for_each(|_| search.advance(&problem));
-        let front = Front::of(&search, &problem);
+        let (goal, method) =
+            (Goal { max_cost, requirements, ..Goal::default() }, Method::default());
+        let problem =
+            Problem::of(data.clone()).profile(profile.clone()).goal(goal).build().unwrap();
+        let mut search = Search::new(problem, method).unwrap();
+        search.enumerate(1.0, usize::MAX);
+        (0..5).for_each(|_| search.advance());
+        let front = Front::of(&search);
         assert!(!front.members.is_empty());
         for member in front.members {
             assert!(member.cost <= max_cost, "{}: {}", member.cost, member.formula);

@@ -1,11 +1,9 @@
 //! Units do not matter: whatever columns are multiplied by or lie away from zero, the same is found.
 
-use lgp::cost::Profile;
 use lgp::dataset::{Column, Dataset, Split};
-use lgp::grammar::Grammar;
 use lgp::op::Op;
 use lgp::program::{Constants, structural_hash};
-use lgp::search::{Front, Problem, Search, Settings};
+use lgp::search::{Front, Goal, Method, Problem, Search};
 
 /// Values of `f` over a grid of two inputs, each input and output as `map` gives them.
 fn dataset(
@@ -50,16 +48,22 @@ fn dataset(
 }
 
 fn front(data: &Dataset, generations: u64) -> Front {
-    let settings = Settings { islands: 3, candidates: 100, max_cost: 16.0, ..Settings::default() };
-    front_of(data, settings, generations)
+    front_of(
+        data,
+        (
+            Goal { max_cost: 16.0, ..Goal::default() },
+            Method { islands: 3, candidates: 100, ..Method::default() },
+        ),
+        generations,
+    )
 }
 
-fn front_of(data: &Dataset, settings: Settings, generations: u64) -> Front {
-    let (grammar, gpu) = (Grammar::find("shader").unwrap(), Profile::find("gcn").unwrap());
-    let problem = Problem::new(data, &grammar, &gpu, &settings);
-    let mut search = Search::new(settings);
-    (0..generations).for_each(|_| search.advance(&problem));
-    Front::of(&search, &problem)
+fn front_of(data: &Dataset, asked: (Goal, Method), generations: u64) -> Front {
+    let (goal, method) = asked;
+    let problem = Problem::of(data.clone()).goal(goal).build().unwrap();
+    let mut search = Search::new(problem, method).unwrap();
+    (0..generations).for_each(|_| search.advance());
+    Front::of(&search)
 }
 
 /// No short formula is exact, so that errors fall evenly with the cost.
@@ -109,14 +113,22 @@ fn loss_by_units(
     map_output: fn(usize, f32) -> f32,
     cycles: f64,
 ) -> f64 {
-    let searched = |map_inputs: fn(f32, f32) -> [f32; 2],
-                    map_output: fn(usize, f32) -> f32,
-                    seed| {
-        let data = dataset("lobe", lobe, map_inputs, map_output);
-        let [low, high] = data.outputs[0].domain;
-        let settings = Settings { seed, candidates: 100, max_cost: 15.0, ..Settings::default() };
-        (front_of(&data, settings, 16), high - low)
-    };
+    let searched =
+        |map_inputs: fn(f32, f32) -> [f32; 2], map_output: fn(usize, f32) -> f32, seed| {
+            let data = dataset("lobe", lobe, map_inputs, map_output);
+            let [low, high] = data.outputs[0].domain;
+            (
+                front_of(
+                    &data,
+                    (
+                        Goal { max_cost: 15.0, ..Goal::default() },
+                        Method { seed, candidates: 100, ..Method::default() },
+                    ),
+                    16,
+                ),
+                high - low,
+            )
+        };
     let relative = |(front, range): &(Front, f64), cost: f64| {
         let affordable = front.members.iter().filter(|member| member.cost <= cost);
         let errors = affordable.map(|member| member.validation_error().rmse / range);

@@ -19,8 +19,8 @@ use lgp::cost::Profile;
 use lgp::dataset::{Dataset, Incumbent, incumbents_for};
 use lgp::fit::Measure;
 use lgp::grammar::Grammar;
-use lgp::report::table::Published;
-use lgp::search::{Enumeration, Front, FrontMember, Problem, Search, Settings};
+use lgp::run::Session;
+use lgp::search::{Front, FrontMember, Goal, Method, Problem, Published, Search};
 use record::{Budget, Member, Run, Runs, TRACED, TracePoint};
 use std::error::Error;
 use std::path::{Path, PathBuf};
@@ -59,7 +59,7 @@ struct Args {
     /// over what they would spend in a second of a quiet machine
     #[arg(long)]
     cpu: bool,
-    #[arg(long, default_value_t = Settings::default().max_cost)]
+    #[arg(long, default_value_t = Goal::default().max_cost)]
     max_cost: f64,
     #[arg(long, default_value = "shader")]
     grammar: String,
@@ -192,23 +192,30 @@ fn published(
 
 /// One search, its front noted at each budget.
 fn measure(args: &Args, case: &Case, profile: &Profile, seed: u64) -> Result<(), Box<dyn Error>> {
-    let grammar = Grammar::find(&args.grammar)?;
-    let settings =
-        Settings { seed, max_cost: args.max_cost, measure: args.loss, ..Settings::default() };
-    let problem = Problem::new(&case.dataset, &grammar, profile, &settings);
-    let mut search = Search::new(settings);
-    let mut clock =
-        seconds(args, || search.enumerate(&problem, Enumeration::USUAL.0, Enumeration::USUAL.1));
+    let problem = Problem::of(case.dataset.clone())
+        .grammar(Grammar::find(&args.grammar)?)
+        .profile(profile.clone())
+        .measure(args.loss)
+        .max_cost(args.max_cost)
+        .build()?;
+    // The benchmark's clock decides, not the session's.
+    let endless = lgp::run::Budget { generations: Some(u64::MAX), ..Default::default() };
+    let method = Method { seed, ..Method::default() };
+    let mut session = Session::new(problem, method)?.budget(endless);
+    let mut clock = 0.0;
     let mut trace: Vec<TracePoint> = Vec::new();
     for &budget in &args.budgets {
-        while !budget.is_spent(clock, search.generation()) {
-            clock += seconds(args, || search.advance(&problem));
+        while !budget.is_spent(clock, session.search().generation()) {
+            let mut step = Ok(None);
+            clock += seconds(args, || step = session.step());
+            step?;
             if trace.last().is_none_or(|last| clock >= last.seconds * TRACE_RATIO) {
-                trace.push(trace_point(&search, clock));
+                trace.push(trace_point(session.search(), clock));
             }
         }
+        let search = session.search();
         let front = |measure, wanted: bool| -> Vec<Member> {
-            let front = wanted.then(|| Front::in_measure(&search, &problem, measure));
+            let front = wanted.then(|| Front::in_measure(search, measure));
             front.iter().flat_map(|front| &front.members).map(member).collect()
         };
         let run = Run {
@@ -223,7 +230,7 @@ fn measure(args: &Args, case: &Case, profile: &Profile, seed: u64) -> Result<(),
             considered: search.counts().considered,
             front: front(Measure::Rmse, args.loss == Measure::Rmse),
             minimax: front(Measure::Max, args.loss == Measure::Max || args.minimax),
-            trace: trace.iter().cloned().chain([trace_point(&search, clock)]).collect(),
+            trace: trace.iter().cloned().chain([trace_point(search, clock)]).collect(),
         };
         let error_at = if args.loss == Measure::Max { Run::max_error_at } else { Run::error_at };
         let errors: Vec<String> =

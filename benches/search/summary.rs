@@ -5,7 +5,7 @@ use super::record::{Runs, Spread, TRACED};
 use lgp::dataset::replace_file;
 use lgp::fit::Measure;
 use lgp::report::plot::{Line, LinePlot, Theme, lines_png, lines_svg};
-use lgp::report::table::error_text;
+use lgp::wording::error_text;
 use std::error::Error;
 use std::fmt::Write;
 use std::path::Path;

@@ -4,13 +4,13 @@
 //! With a path in `LGP_FUZZ_SEED`, an input that is a whole checkpoint is written there.
 #![no_main]
 
-use lgp::cost::Profile;
 use lgp::dataset::{Column, Dataset, Split};
 use lgp::grammar::Grammar;
-use lgp::search::{Census, Checkpoint, Problem, Run, Search, Settings};
+use lgp::run::{Census, Checkpoint, Run};
+use lgp::search::{Method, Problem, Search};
 use libfuzzer_sys::fuzz_target;
 use std::path::Path;
-use std::sync::LazyLock;
+use std::sync::{Arc, LazyLock};
 
 /// Stands before a number of two bytes, the low one first, for so many zeros: the table of structures seen is
 /// nearly all of a checkpoint, and nearly all zeros.
@@ -48,10 +48,8 @@ fn without_zeros(bytes: &[u8]) -> Vec<u8> {
 }
 
 struct Bench {
-    dataset: Dataset,
-    grammar: Grammar,
-    profile: Profile,
-    settings: Settings,
+    problem: Arc<Problem>,
+    method: Method,
 }
 
 static BENCH: LazyLock<Bench> = LazyLock::new(|| {
@@ -67,38 +65,34 @@ static BENCH: LazyLock<Bench> = LazyLock::new(|| {
         search: split.clone(),
         validation: split,
     };
-    let settings = Settings { islands: 1, candidates: 8, max_cost: 4.0, ..Settings::default() };
+    let method = Method { islands: 1, candidates: 8, ..Method::default() };
     let grammar = Grammar::find("polynomial").expect("built in");
-    let profile = Profile::find("gcn").expect("built in");
+    let problem = Problem::of(dataset).grammar(grammar).max_cost(4.0).build();
+    let problem = Arc::new(problem.expect("a problem"));
     if let Some(seed) = std::env::var_os("LGP_FUZZ_SEED") {
-        let mut search = Search::new(settings.clone());
-        search.advance(&Problem::new(&dataset, &grammar, &profile, &settings));
-        let run = Run {
-            name: dataset.name.clone(),
-            inputs: dataset.inputs.clone(),
-            outputs: dataset.outputs.clone(),
-            settings: settings.clone(),
-            ..Run::default()
-        };
-        let whole = Checkpoint { run, search, trace: String::new(), census: Census::default() };
-        let bytes = whole.to_bytes();
+        let mut search = Search::new(problem.clone(), method.clone()).expect("a method");
+        search.advance();
+        let run = Run::of(&problem, &method);
+        let bytes = Checkpoint::bytes(&run, search.state(), "", &Census::default());
         let seed_written = std::fs::write(seed, without_zeros(&bytes[..bytes.len() - 32]));
         seed_written.expect("there is room");
     }
-    Bench { dataset, grammar, profile, settings }
+    Bench { problem, method }
 });
 
 fuzz_target!(|content: &[u8]| {
-    let Bench { dataset, grammar, profile, settings } = &*BENCH;
+    let Bench { problem, method } = &*BENCH;
     let path = Path::new("checkpoint.bin");
     let content = with_zeros(content);
     let bytes = [&content, blake3::hash(&content).as_bytes().as_slice()].concat();
-    let Ok(mut read) = Checkpoint::from_bytes(path, &bytes) else { return };
+    let Ok(read) = Checkpoint::from_bytes(path, &bytes) else { return };
     let again = Checkpoint::from_bytes(path, &read.to_bytes());
     let again = again.expect("what was written can be read");
-    assert_eq!(again.search.generation(), read.search.generation());
+    assert_eq!(again.state.generation(), read.state.generation());
     assert_eq!(format!("{:?}", again.run), format!("{:?}", read.run));
-    if read.search.settings() == settings && read.run.names() == dataset.names() {
-        read.search.advance(&Problem::new(dataset, grammar, profile, settings));
+    let is_usual = &read.run.goal == problem.goal() && &read.run.method == method;
+    if is_usual && read.run.names() == problem.dataset().names() {
+        let search = Search::resume(problem.clone(), read.run.method, read.state);
+        search.expect("as it was checked").advance();
     }
 });

@@ -4,7 +4,8 @@
 
 use lgp::emit::{Language, Snippet, emit};
 use lgp::fit::Measure;
-use lgp::search::{Front, Run};
+use lgp::run::Run;
+use lgp::search::Front;
 use lgp::stability::Questions;
 use libfuzzer_sys::fuzz_target;
 use std::path::Path;

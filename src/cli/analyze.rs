@@ -1,7 +1,8 @@
 use super::run_folder::{self, Which};
 use super::{Common, Failure};
 use crate::program::{Arg, Draft, Names};
-use crate::search::{Census, Front, FrontMember, Recurring};
+use crate::run::{Census, Recurring};
+use crate::search::{Front, FrontMember};
 use serde::Serialize;
 use std::fmt::Write;
 use std::path::PathBuf;

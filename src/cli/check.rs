@@ -1,14 +1,14 @@
 use super::eval::{assigned_outputs, settled};
 use super::run_folder::{self, Which};
-use super::{Common, Exit, Failure};
+use super::{Common, Failure};
 use crate::dataset::{Column, Dataset};
 use crate::program::{Names, Program, parse_open, shortest};
-use crate::report::examination;
-use crate::report::table::cycles_text;
-use crate::report::verdict::claim_text;
 use crate::search::FrontMember;
 use crate::stability::{Examination, Questions, Status, Topic, Verdict, VerdictRecord};
 use crate::suggest::did_you_mean;
+use crate::wording::claim_text;
+use crate::wording::cycles_text;
+use crate::wording::examination;
 use rayon::prelude::*;
 use serde_json::json;
 use std::fmt::Write;
@@ -181,7 +181,7 @@ fn check_one(
     let verdict = &examination.verdict;
     let worst = refuted(args, verdict).next();
     match worst.map(|topic| record_text(verdict, topic, names)) {
-        Some(reason) => Err(Failure::new(Exit::Unmet, anyhow::Error::msg(reason))),
+        Some(reason) => Err(Failure::unmet(reason)),
         None => Ok(()),
     }
 }
@@ -241,7 +241,7 @@ fn check_front(args: &Args, folder: &Path, common: &Common) -> Result<(), Failur
     let failed = verdicts.iter().filter(|verdict| refuted(args, verdict).next().is_some()).count();
     if failed > 0 {
         let message = format!("{failed} of {} formulas fail in what was asked for", verdicts.len());
-        return Err(Failure::new(Exit::Unmet, anyhow::Error::msg(message)));
+        return Err(Failure::unmet(message));
     }
     Ok(())
 }

@@ -1,7 +1,6 @@
 //! Which columns of a dataset a command takes.
 
-use super::Failure;
-use crate::dataset::Dataset;
+use crate::dataset::{self, Dataset};
 
 /// The options that choose columns.
 #[derive(Clone, Debug, Default, clap::Args)]
@@ -26,7 +25,7 @@ impl Columns {
     }
 
     /// The dataset with only the columns chosen.
-    pub fn of(&self, dataset: &Dataset) -> Result<Dataset, Failure> {
-        Ok(dataset.select(self.inputs.as_deref(), self.outputs.as_deref())?)
+    pub fn of(&self, dataset: &Dataset) -> Result<Dataset, dataset::Error> {
+        dataset.select(self.inputs.as_deref(), self.outputs.as_deref())
     }
 }

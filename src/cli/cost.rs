@@ -1,7 +1,7 @@
 use super::{Common, Failure};
 use crate::cost::{Cost, Profile};
 use crate::program::parse_open;
-use crate::report::table::cycles_text;
+use crate::wording::cycles_text;
 use std::collections::BTreeMap;
 use std::fmt::Write;
 

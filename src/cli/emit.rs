@@ -1,13 +1,14 @@
 use super::run_folder::{self, Which};
-use super::{Common, Exit, Failure, tiers};
+use super::{Common, Failure, tiers};
 use crate::emit::Language;
 use crate::num::Interval;
 use crate::program::{Names, shortest};
-use crate::report::examination::expression;
-use crate::report::table::{cycles_text, error_text};
-use crate::report::verdict::number_text;
-use crate::search::{Front, FrontMember, Run};
+use crate::run::{self, Run};
+use crate::search::{Front, FrontMember};
 use crate::stability::{Questions, Unheld, must_stay_single, unheld};
+use crate::wording::examination::expression;
+use crate::wording::number_text;
+use crate::wording::{cycles_text, error_text};
 use serde::Serialize;
 use std::path::PathBuf;
 
@@ -61,7 +62,7 @@ pub fn run(args: &Args, common: &Common) -> Result<(), Failure> {
     member.judge(&Questions::of(&run.inputs, &run.outputs), &run.names());
     let member = &member;
     let code = match (args.half, args.half_error) {
-        (false, None) => run_folder::snippet(&run, member, args.lang),
+        (false, None) => run::snippet(&run, member, args.lang),
         (_, bound) => half(args, &run, member, bound)?,
     };
     let emitted = Emitted {
@@ -98,9 +99,9 @@ fn half(
             }
         };
         let message = format!("{}; {remedy}", unheld_text(&lost, member, &run.names()));
-        return Err(Failure::new(Exit::Unmet, anyhow::Error::msg(message)));
+        return Err(Failure::unmet(message));
     }
-    let code = run_folder::half_snippet(run, member, args.lang, &domain, &stay_single);
+    let code = run::half_snippet(run, member, args.lang, &domain, &stay_single);
     Ok(code.expect("shading languages have halves"))
 }
 
@@ -124,7 +125,7 @@ fn stay_single(
                  the error is larger; ask for more"
             ),
         };
-        Failure::new(Exit::Unmet, anyhow::Error::msg(message))
+        Failure::unmet(message)
     })
 }
 
@@ -168,7 +169,7 @@ fn unheld_text(lost: &Unheld, member: &FrontMember, names: &Names) -> String {
 }
 
 fn pick<'a>(args: &Args, run: &Run, front: &'a Front) -> Result<&'a FrontMember, Failure> {
-    let unmet = |message: String| Failure::new(Exit::Unmet, anyhow::Error::msg(message));
+    let unmet = |message: String| Failure::unmet(message);
     if args.max_cost.is_some() || args.max_error.is_some() {
         return front.within(args.max_cost, args.max_error).ok_or_else(|| {
             let limit = |limit: Option<f64>, what: &str| {
@@ -215,7 +216,7 @@ pub(super) fn numbered<'a>(
     pick: Option<&str>,
 ) -> Result<&'a FrontMember, Failure> {
     let members = &front.members;
-    let unmet = |message: String| Failure::new(Exit::Unmet, anyhow::Error::msg(message));
+    let unmet = |message: String| Failure::unmet(message);
     match pick {
         None | Some("knee") => front.knee().ok_or_else(|| unmet("the front is empty".into())),
         Some(number) => {

@@ -1,9 +1,10 @@
-use super::subject::Subject;
-use super::{Common, Exit, Failure, columns::Columns};
+use super::{Common, Failure, columns::Columns};
 use crate::cost::Profile;
 use crate::program::{Names, ParseError, Parsed, Program, Scope, parse_template};
-use crate::report::table::front_table;
-use crate::search::{Front, FrontMember, MemberRecord};
+use crate::run::MemberRecord;
+use crate::run::Subject;
+use crate::search::{Front, FrontMember};
+use crate::wording::front_table;
 use std::path::PathBuf;
 
 /// Score a formula of your own on a dataset: errors and GPU cycles
@@ -26,7 +27,8 @@ pub struct Args {
 }
 
 pub fn run(args: &Args, common: &Common) -> Result<(), Failure> {
-    let subject = Subject::load(&args.dataset, args.scene.as_deref(), &args.columns)?;
+    let subject =
+        Subject::load(&args.dataset, args.scene.as_deref(), |data| args.columns.of(data))?;
     let profile = Profile::find(&args.gpu)?;
     let (program, names) = read(args, &subject)?;
     let dataset = subject.dataset.select(Some(&names.inputs), Some(&names.outputs))?;
@@ -66,7 +68,7 @@ pub(super) fn settled(parsed: Parsed) -> Result<(Program, Names), Failure> {
             let name = &constant.name;
             let message =
                 format!("`${name}` is a free constant; give it a value, or fit it with `lgp fit`");
-            Err(Failure::new(Exit::Input, anyhow::Error::msg(message)))
+            Err(Failure::input(message))
         }
     }
 }

@@ -1,6 +1,7 @@
 use super::output::to_stderr;
 use crate::grammar::FileError;
-use crate::search::{Incompatible, RecordError};
+use crate::run::{Incompatible, RecordError, SubjectError};
+use crate::search::SetupError;
 use crate::{dataset, program, scene, targets};
 use std::io::ErrorKind;
 use std::path::Path;
@@ -44,6 +45,26 @@ impl Failure {
         Failure::new(Exit::Usage, anyhow::Error::msg(message.into()))
     }
 
+    /// Something unusable that the command line refers to.
+    pub fn input(message: impl Into<String>) -> Failure {
+        Failure::new(Exit::Input, anyhow::Error::msg(message.into()))
+    }
+
+    /// A target that was asked for was not met.
+    pub fn unmet(message: impl Into<String>) -> Failure {
+        Failure::new(Exit::Unmet, anyhow::Error::msg(message.into()))
+    }
+
+    /// What was asked for is fine, but could not be done.
+    pub fn failed(message: impl Into<String>) -> Failure {
+        Failure::new(Exit::Failed, anyhow::Error::msg(message.into()))
+    }
+
+    /// Stopped by the user.
+    pub fn interrupted(message: impl Into<String>) -> Failure {
+        Failure::new(Exit::Interrupted, anyhow::Error::msg(message.into()))
+    }
+
     /// An output that cannot be written.
     pub fn unwritable(path: &Path, reason: std::io::Error) -> Failure {
         let path = path.display();
@@ -53,7 +74,7 @@ impl Failure {
             }
             _ => "choose an output in a folder that exists and that you may write to",
         };
-        Failure::new(Exit::Failed, anyhow::anyhow!("{path}: cannot be written: {reason}; {advice}"))
+        Failure::failed(format!("{path}: cannot be written: {reason}; {advice}"))
     }
 
     /// Tells the user, on stderr: the error, and what caused it as far as the
@@ -107,6 +128,26 @@ impl From<RecordError> for Failure {
         match error {
             RecordError::Unwritable { path, reason } => Failure::unwritable(&path, reason),
             error @ RecordError::Busy { .. } => Failure::new(Exit::Failed, error),
+            error => Failure::new(Exit::Input, error),
+        }
+    }
+}
+
+impl From<SubjectError> for Failure {
+    fn from(error: SubjectError) -> Failure {
+        match error {
+            SubjectError::Dataset(error) => error.into(),
+            SubjectError::Scene(error) => error.into(),
+            error @ SubjectError::OtherData { .. } => Failure::new(Exit::Input, error),
+        }
+    }
+}
+
+impl From<SetupError> for Failure {
+    fn from(error: SetupError) -> Failure {
+        match error {
+            SetupError::Dataset(error) => error.into(),
+            SetupError::File(error) => error.into(),
             error => Failure::new(Exit::Input, error),
         }
     }

@@ -4,9 +4,10 @@ use crate::cost::Profile;
 use crate::dataset::{Dataset, output_units};
 use crate::fit::{Measure, Parameter, fit_model};
 use crate::program::{Draft, Names, Parsed, Program};
-use crate::report::table::front_table;
-use crate::search::{Front, FrontMember, MemberRecord};
+use crate::run::MemberRecord;
+use crate::search::{Front, FrontMember};
 use crate::suggest::did_you_mean;
+use crate::wording::front_table;
 use serde::Serialize;
 use std::collections::BTreeMap;
 use std::path::PathBuf;
@@ -85,7 +86,7 @@ pub fn run(args: &Args, common: &Common) -> Result<(), Failure> {
     let loss = fit_model(&mut draft, &samples, &parameters, measure, args.starts, common.seed());
     if !loss.is_finite() {
         let message = "the model is not finite on every sample from any start; give others by --start, or --bounds";
-        return Err(Failure::new(Exit::Input, anyhow::Error::msg(message)));
+        return Err(Failure::input(message));
     }
     let constants: BTreeMap<&str, f32> = known
         .iter()

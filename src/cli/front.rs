@@ -1,9 +1,11 @@
 use super::run_folder::{self, Which};
-use super::subject::Subject;
 use super::{Common, Failure, tiers};
-use crate::report::table::{Published, front_table};
-use crate::search::{Front, MemberRecord, Run};
+use crate::run::Subject;
+use crate::run::{MemberRecord, Run};
+use crate::search::Front;
+use crate::search::Published;
 use crate::stability::Questions;
+use crate::wording::front_table;
 use std::path::{Path, PathBuf};
 
 /// Show the front of a run as a table, published formulas beside it

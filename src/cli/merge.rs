@@ -1,10 +1,13 @@
+use super::report::write_plots;
 use super::run_folder::{self, Which};
 use super::{Common, Failure, front};
-use crate::report::table::front_table;
-use crate::search::{
-    CHECKPOINT, Front, Holding, MemberRecord, Run, RunFolder, in_the_way, load_run, merge,
+use crate::run::{
+    CHECKPOINT, FRONT_TABLE, Folder, Holding, MemberRecord, Run, front_files, in_the_way, load_run,
+    merge,
 };
+use crate::search::Front;
 use crate::stability::Questions;
+use crate::wording::front_table;
 use std::path::{Path, PathBuf};
 
 /// Put runs together: the front that none of their formulas dominates
@@ -30,19 +33,20 @@ pub fn run(args: &Args, common: &Common) -> Result<(), Failure> {
         front.judge(&questions, &run.names());
     }
     check_replaceable(&args.out)?;
-    let folder = RunFolder::claim(&args.out)?;
+    let folder = Folder::claim(&args.out)?;
     // It may have changed hands in between.
     check_replaceable(&args.out)?;
     let incumbents = front::incumbents(&mut run.clone(), &args.runs[0]).unwrap_or_default();
-    let files = run_folder::fronts(&run, &union, &minimax, &incumbents);
-    let snippets = run_folder::snippets_in(&args.out);
+    let table = front_table(&union, &incumbents, &run.names().outputs);
+    let mut files = front_files(&run, &union, &minimax);
+    files.push((FRONT_TABLE.to_owned(), table.clone().into()));
     let written = folder
-        .exchange(&run, &files, &snippets)
+        .exchange(&run, &files)
         .map_err(Failure::from)
-        .and_then(|()| run_folder::write_plots(&args.out, &run, &union, &incumbents));
+        .and_then(|()| write_plots(&args.out, &run, &union, &incumbents));
     let names = run.names();
     let records: Vec<_> = union.members.iter().map(|m| MemberRecord::new(m, &names)).collect();
-    common.result(&records, &front_table(&union, &incumbents, &names.outputs))?;
+    common.result(&records, &table)?;
     written?;
     common.note(&format!("{} searches; written to {}", run.sources.len(), args.out.display()));
     Ok(())
@@ -65,7 +69,7 @@ fn check_replaceable(out: &Path) -> Result<(), Failure> {
     match Holding::of(out) {
         Holding::Finished if load_run(out)?.sources.is_empty() => refuse("a search"),
         Holding::Unfinished if out.join(CHECKPOINT).exists() => refuse("a search"),
-        Holding::NoRun => match in_the_way(out, &run_folder::snippets_in(out)) {
+        Holding::NoRun => match in_the_way(out) {
             Some(file) => refuse(&format!("`{file}`, which is no run's")),
             None => Ok(()),
         },

@@ -2,40 +2,21 @@
 
 use super::resume::resumed;
 use super::search::Args;
-use super::subject::{Subject, noted};
-use super::{Common, Failure, run_folder};
+use super::{Common, Failure};
 use crate::cost::Profile;
 use crate::dataset::{Dataset, Split};
 use crate::fit::Measure;
 use crate::grammar::Grammar;
 use crate::program::{Draft, parse};
-use crate::search::{
-    Budget, Checkpoint, Holding, Requirement, Run, RunFolder, Settings, Transform, in_the_way,
-};
+use crate::run::{Budget, Folder, Holding, RecordError, Session, Subject, in_the_way, noted};
+use crate::search::{Goal, Method, Problem, Requirement, Transform, USUAL_GPU, USUAL_GRAMMAR};
 use crate::suggest::did_you_mean;
 use std::path::{Path, PathBuf};
-
-/// Without tiers that say what they may spend.
-const MAX_COST: f64 = 40.0;
-
-/// What is not said otherwise.
-const GRAMMAR: &str = "shader";
-const GPU: &str = "gcn";
-const ISLANDS: u16 = 8;
 
 /// A search that is ready to begin or to go on, the owner of its folder.
 pub struct Plan {
     pub subject: Subject,
-    /// With all that decides the search; its progress is that of the checkpoint, or none.
-    pub run: Run,
-    pub grammar: Grammar,
-    pub profile: Profile,
-    pub guesses: Vec<Draft>,
-    pub folder: RunFolder,
-    /// Whether another run in the folder is to be replaced.
-    pub replaces: bool,
-    /// What to go on with.
-    pub checkpoint: Option<Checkpoint>,
+    pub session: Session,
 }
 
 impl Plan {
@@ -50,58 +31,54 @@ impl Plan {
         let Some(path) = &args.dataset else {
             return Err(Failure::usage("give a dataset to search formulas for"));
         };
-        let subject = Subject::load(path, args.scene.as_deref(), &args.columns)?;
+        let scene = args.scene.as_deref();
+        let subject = Subject::load(path, scene, |data| args.columns.of(data))?;
         let dataset = &subject.dataset;
-        let grammar = Grammar::find(args.grammar.as_deref().unwrap_or(GRAMMAR))?;
-        let gpu = args.gpu.as_deref().unwrap_or(GPU);
+        let grammar = Grammar::find(args.grammar.as_deref().unwrap_or(USUAL_GRAMMAR))?;
+        let gpu = args.gpu.as_deref().unwrap_or(USUAL_GPU);
         let profile = Profile::find(gpu)?;
-        let guesses = guesses(&args.guess, dataset)?;
+        let usual = Goal::default();
         let tiers_spend = subject.scene.as_ref().and_then(|scene| scene.max_cost());
-        let settings = Settings {
-            seed: common.seed(),
-            islands: args.islands.unwrap_or(ISLANDS).into(),
-            max_cost: args.max_cost.or(tiers_spend).unwrap_or(MAX_COST),
+        let goal = Goal {
             measure: measure(args.loss, path, &dataset.search)?,
-            immigrants: args.immigrants.unwrap_or(0.0),
             requirements: requirements(args, dataset)?,
             transforms: transforms(&args.transform, dataset)?,
-            ..Settings::default()
+            max_cost: args.max_cost.or(tiers_spend).unwrap_or(usual.max_cost),
         };
-        check_operations(&settings.requirements, &guesses, &grammar, common)?;
+        let usual = Method::default();
+        let method = Method {
+            seed: common.seed(),
+            islands: args.islands.map_or(usual.islands, usize::from),
+            immigrants: args.immigrants.unwrap_or(usual.immigrants),
+            ..usual
+        };
+        check_operations(&goal.requirements, &guesses(&args.guess, dataset)?, &grammar, common)?;
         let (folder, replaces) = match &args.out {
             Some(out) => (asked_for(out, args.force)?, Holding::of(out) != Holding::NoRun),
             None => (free(&dataset.name, common)?, false),
         };
-        let run = Run {
-            version: env!("CARGO_PKG_VERSION").to_owned(),
-            command: std::env::args_os().map(|word| word.to_string_lossy().into_owned()).collect(),
-            dataset: noted(path, folder.path()),
-            dataset_hash: subject.whole.hash(),
-            scene: subject.scene.clone(),
-            name: dataset.name.clone(),
-            inputs: dataset.inputs.clone(),
-            outputs: dataset.outputs.clone(),
-            grammar: grammar.name.clone(),
-            rules: Some(grammar.clone()),
-            gpu: gpu.to_owned(),
-            profile: Some(profile.clone()),
-            settings,
-            guesses: args.guess.clone(),
-            exhaustive: args.exhaustive,
-            budget: budget(args),
-            machine: machine(),
-            threads: rayon::current_num_threads(),
-            ..Run::default()
-        };
-        Ok(Plan { subject, run, grammar, profile, guesses, folder, replaces, checkpoint: None })
+        let problem = Problem::of(dataset.clone()).grammar(grammar).profile(profile).goal(goal);
+        let session = Session::new(problem.build()?, method)?
+            .budget(budget(args))
+            .guesses(&args.guess)?
+            .exhaustive(args.exhaustive)
+            .of_file(noted(path, folder.path()), subject.whole.hash(), subject.scene.clone())
+            .asked_by(gpu, command())
+            .kept_in(folder, replaces);
+        Ok(Plan { subject, session })
     }
 }
 
+/// The command line, its arguments as given.
+fn command() -> Vec<String> {
+    std::env::args_os().map(|word| word.to_string_lossy().into_owned()).collect()
+}
+
 /// The folder that was asked for, unless it holds what would be lost.
-fn asked_for(out: &Path, force: bool) -> Result<RunFolder, Failure> {
+fn asked_for(out: &Path, force: bool) -> Result<Folder, Failure> {
     let shown = out.display();
     let check = || match Holding::of(out) {
-        Holding::NoRun => match in_the_way(out, &run_folder::snippets_in(out)) {
+        Holding::NoRun => match in_the_way(out) {
             Some(file) => Err(Failure::usage(format!(
                 "{shown}: holds `{file}`, which is no run's and would be overwritten; choose another --out"
             ))),
@@ -116,19 +93,19 @@ fn asked_for(out: &Path, force: bool) -> Result<RunFolder, Failure> {
         ))),
     };
     check()?;
-    let folder = RunFolder::claim(out)?;
+    let folder = Folder::claim(out)?;
     // It may have changed hands in between.
     check()?;
     Ok(folder)
 }
 
 /// The first of `runs/NAME`, `runs/NAME-2` and so on that holds nothing.
-fn free(name: &str, common: &Common) -> Result<RunFolder, Failure> {
+fn free(name: &str, common: &Common) -> Result<Folder, Failure> {
     for (number, path) in default_folders(name).enumerate() {
         if !is_empty(&path) {
             continue;
         }
-        match RunFolder::claim(&path) {
+        match Folder::claim(&path) {
             Ok(folder) if Holding::of(&path) == Holding::NoRun => {
                 if number > 0 {
                     let first = default_folders(name).next().unwrap_or_default();
@@ -137,7 +114,7 @@ fn free(name: &str, common: &Common) -> Result<RunFolder, Failure> {
                 }
                 return Ok(folder);
             }
-            Ok(_) | Err(crate::search::RecordError::Busy { .. }) => {}
+            Ok(_) | Err(RecordError::Busy { .. }) => {}
             Err(error) => return Err(error.into()),
         }
     }
@@ -247,14 +224,4 @@ pub(super) fn transforms(
         transforms[place] = Some(function.parse().map_err(usage)?);
     }
     Ok(transforms)
-}
-
-pub(super) fn machine() -> String {
-    let cores = std::thread::available_parallelism().map_or(1, usize::from);
-    format!(
-        "{} {}, {cores} cores, {}",
-        std::env::consts::ARCH,
-        std::env::consts::OS,
-        crate::eval::Isa::best()
-    )
 }

@@ -1,6 +1,6 @@
 //! Why a search has ended without a formula.
 
-use crate::search::Run;
+use crate::run::Run;
 
 /// Which refusal took all of a run's candidates; `archived` of them were left at the end.
 pub fn of_all(run: &Run, archived: usize) -> String {
@@ -14,7 +14,7 @@ pub fn of_all(run: &Run, archived: usize) -> String {
         };
         return format!(
             "no formula was found: all {archived} that the search kept are not finite somewhere in the domain or dearer than {} cycles when finished{required}; search longer, or ask for less",
-            run.settings.max_cost
+            run.goal.max_cost
         );
     }
     let mut refused = [

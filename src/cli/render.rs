@@ -1,7 +1,6 @@
 //! `lgp render`: spheres shaded with the truth, a formula, and their difference.
 
 use super::run_folder::{self, Which};
-use super::subject::Subject;
 use super::{Common, Exit, Failure, emit, output};
 use crate::dataset::{Dataset, replace_file};
 use crate::program::Program;
@@ -10,8 +9,9 @@ use crate::report::spheres::{
     DIFFERENCE_TIMES, Environment, Labels, Material, SphereTable, Spheres, View, difference,
     displayed_rmse, picture,
 };
-use crate::report::table::cycles_text;
-use crate::search::{Run, RunFolder};
+use crate::run::Subject;
+use crate::run::{Folder, Run};
+use crate::wording::cycles_text;
 use serde::Serialize;
 use std::path::PathBuf;
 
@@ -88,16 +88,16 @@ struct Written {
 pub fn run(args: &Args, common: &Common) -> Result<(), Failure> {
     let (mut run, front) = run_folder::load(&args.run, args.which)?;
     let member = emit::numbered(&front, Some(&args.pick))?;
-    let found = match &args.dataset {
-        Some(path) => Subject::of_run_at(&run, path),
-        None => Subject::of_run(&mut run, &args.run)
-            .map_err(|problem| format!("{problem}; --dataset says where the data are")),
+    let Subject { dataset, .. } = match &args.dataset {
+        Some(path) => Subject::of_run_at(&run, path)?,
+        None => Subject::of_run(&mut run, &args.run).map_err(|problem| {
+            let message = format!("{problem}; --dataset says where the data are");
+            Failure::input(message)
+        })?,
     };
-    let Subject { dataset, .. } =
-        found.map_err(|problem| Failure::new(Exit::Input, anyhow::Error::msg(problem)))?;
     let _owned = match &args.output {
         Some(_) => None,
-        None => Some(RunFolder::claim(&args.run)?),
+        None => Some(Folder::claim(&args.run)?),
     };
     let path = args.output.clone().unwrap_or_else(|| args.run.join("spheres.png"));
     output::check_writable(&path)?;
@@ -138,9 +138,7 @@ impl Drawing<'_> {
         theme: Option<Theme>,
     ) -> Result<(Vec<u8>, f64), Failure> {
         let Run { inputs, outputs, .. } = self.run;
-        let refused = |reason: String| {
-            Failure::new(Exit::Input, anyhow::anyhow!("{}: {reason}", self.run.name))
-        };
+        let refused = |reason: String| Failure::input(format!("{}: {reason}", self.run.name));
         let spheres = Spheres::of(inputs, outputs, self.environment).ok_or_else(|| {
             let names = self.run.names();
             let (inputs, outputs) = (names.inputs.join(", "), names.outputs.join(", "));

@@ -1,16 +1,15 @@
 //! A search that goes on: its options are those of its run.
 
-use super::plan::{Plan, budget, default_folders, guesses, machine, requirements, transforms};
+use super::plan::{Plan, budget, default_folders, requirements, transforms};
 use super::search::Args;
-use super::subject::Subject;
-use super::{Common, Exit, Failure};
+use super::{Common, Failure};
 use crate::cost::Profile;
 use crate::dataset::Dataset;
 use crate::grammar::Grammar;
+use crate::run::Subject;
+use crate::run::{Budget, Checkpoint, Folder, Holding, RecordError, Run, Session, load_run};
 use crate::scene::Scene;
-use crate::search::{
-    Budget, Checkpoint, Holding, RecordError, Run, RunFolder, Settings, Transform, load_run,
-};
+use crate::search::{Goal, Problem, Transform};
 use std::path::{Path, PathBuf};
 
 /// The plan of the run in the output folder; what is said of it again must be as it was.
@@ -18,7 +17,8 @@ pub fn resumed(args: &Args, common: &Common) -> Result<Plan, Failure> {
     let path = match (&args.out, &args.dataset) {
         (Some(out), _) => out.clone(),
         (None, Some(dataset)) => {
-            let subject = Subject::load(dataset, args.scene.as_deref(), &args.columns)?;
+            let subject =
+                Subject::load(dataset, args.scene.as_deref(), |data| args.columns.of(data))?;
             the_one_of(&subject.dataset.name)?
         }
         (None, None) => {
@@ -27,45 +27,40 @@ pub fn resumed(args: &Args, common: &Common) -> Result<Plan, Failure> {
         }
     };
     check_resumable(&path)?;
-    let folder = RunFolder::claim(&path)?;
+    let folder = Folder::claim(&path)?;
     let mut checkpoint = Checkpoint::load(&path)?;
     let run = &mut checkpoint.run;
     let subject = match &args.dataset {
-        Some(given) => Subject::of_run_at(run, given),
+        Some(given) => Subject::of_run_at(run, given)?,
         None => Subject::of_run(run, &path).map_err(|problem| {
-            format!(
-                "{problem}; give the dataset where it is now: lgp search DATASET --resume --out {}",
-                path.display()
-            )
-        }),
+            let advice = format!("lgp search DATASET --resume --out {}", path.display());
+            let message = format!("{problem}; give the dataset where it is now: {advice}");
+            Failure::input(message)
+        })?,
     };
-    let subject =
-        subject.map_err(|problem| Failure::new(Exit::Input, anyhow::Error::msg(problem)))?;
     if let Some(difference) = difference(args, common, run, &subject.dataset)? {
         let message = format!(
             "{}: the run there has {difference}; leave that option out to go on with it, or search anew in another --out",
             path.display()
         );
-        return Err(Failure::new(Exit::Input, anyhow::Error::msg(message)));
+        return Err(Failure::input(message));
     }
-    run.threads = rayon::current_num_threads();
-    run.machine = machine();
-    run.budget = budget_left(args, run, &path)?;
-    let (grammar, profile) = (run.grammar()?, run.profile());
-    let profile = profile.ok_or_else(|| {
+    let budget = budget_left(args, run, &path)?;
+    let profile = run.profile().ok_or_else(|| {
         let message = format!("{}: its record lacks the GPU profile", path.display());
-        Failure::new(Exit::Input, anyhow::Error::msg(message))
+        Failure::input(message)
     })?;
-    Ok(Plan {
-        guesses: guesses(&run.guesses, &subject.dataset)?,
-        run: run.clone(),
-        subject,
-        grammar,
-        profile,
-        folder,
-        replaces: false,
-        checkpoint: Some(checkpoint),
-    })
+    let problem = Problem::of(subject.dataset.clone())
+        .grammar(run.grammar()?)
+        .profile(profile)
+        .goal(run.goal.clone())
+        .build()?;
+    let guesses = run.guesses.clone();
+    let session = Session::resume(problem, checkpoint)?
+        .budget(budget)
+        .guesses(&guesses)?
+        .kept_in(folder, false);
+    Ok(Plan { subject, session })
 }
 
 /// The only one of `runs/NAME`, `runs/NAME-2` and so on that can be gone on with.
@@ -95,7 +90,7 @@ fn check_resumable(folder: &Path) -> Result<(), Failure> {
             "{}: a union of runs cannot be resumed; start a search with its formulas as --guess",
             folder.display()
         );
-        return Err(Failure::new(Exit::Input, anyhow::Error::msg(message)));
+        return Err(Failure::input(message));
     }
     Ok(())
 }
@@ -107,7 +102,7 @@ fn difference(
     run: &Run,
     dataset: &Dataset,
 ) -> Result<Option<String>, Failure> {
-    let (names, settings) = (run.names(), &run.settings);
+    let (names, goal, method) = (run.names(), &run.goal, &run.method);
     let mut found = None;
     let mut compare = |option: &str, given: Option<String>, has: String| {
         if let Some(given) = given.filter(|given| *given != has && found.is_none()) {
@@ -117,20 +112,19 @@ fn difference(
         }
     };
     let text = |value: Option<f64>| value.map(|value| value.to_string());
-    compare("--seed", common.seed.map(|seed| seed.to_string()), settings.seed.to_string());
-    compare("--islands", args.islands.map(|n| n.to_string()), settings.islands.to_string());
-    compare("--max-cost", text(args.max_cost), settings.max_cost.to_string());
-    compare("--immigrants", text(args.immigrants), settings.immigrants.to_string());
+    compare("--seed", common.seed.map(|seed| seed.to_string()), method.seed.to_string());
+    compare("--islands", args.islands.map(|n| n.to_string()), method.islands.to_string());
+    compare("--max-cost", text(args.max_cost), goal.max_cost.to_string());
+    compare("--immigrants", text(args.immigrants), method.immigrants.to_string());
     compare("--exhaustive", text(args.exhaustive), text(run.exhaustive).unwrap_or_default());
-    compare("--loss", args.loss.map(|loss| loss.to_string()), settings.measure.to_string());
+    compare("--loss", args.loss.map(|loss| loss.to_string()), goal.measure.to_string());
     compare("--inputs", args.columns.inputs(), names.inputs.join(","));
     compare("--outputs", args.columns.outputs(), names.outputs.join(","));
     let some = |list: &[String]| (!list.is_empty()).then(|| list.join(","));
     compare("--guess", some(&args.guess), run.guesses.join(","));
     if !args.require.is_empty() {
         let requirements = requirements(args, dataset)?;
-        let given = Settings { requirements, ..Settings::default() };
-        let given = Run { settings: given, ..run.clone() };
+        let given = Run { goal: Goal { requirements, ..Goal::default() }, ..run.clone() };
         compare("--require", Some(given.requirements()), run.requirements());
     }
     if !args.transform.is_empty() {
@@ -138,7 +132,7 @@ fn difference(
         compare(
             "--transform",
             Some(described(&given, dataset)),
-            described(&settings.transforms, dataset),
+            described(&goal.transforms, dataset),
         );
     }
     if let Some(name) = &args.scene {

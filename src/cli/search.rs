@@ -1,20 +1,16 @@
-use super::evolve::{evolve, time_of};
-use super::finish;
+use super::output::to_stderr;
 use super::plan::Plan;
-use super::run_folder::{self, PartialRun};
+use super::progress::{LiveFront, Phases};
+use super::report::{self, Gathered};
 use super::timings::Timings;
-use super::{
-    Common, Exit, Failure, columns::Columns, duration, interrupts, refusals, report, tiers,
-};
-use crate::deadline::Deadline;
+use super::{Common, Failure, columns::Columns, duration, interrupts, refusals, tiers};
+use crate::emit::Language;
 use crate::fit::Measure;
-use crate::report::table::{Published, front_table};
-use crate::search::{
-    Checkpoint, Enumeration, Front, MOST_CYCLES, MOST_ISLANDS, MemberRecord, Problem, Run, Search,
-    Timetable,
-};
+use crate::run::{FRONT_TABLE, MemberRecord, Outcome, Run, Session};
+use crate::search::{MOST_CYCLES, MOST_ISLANDS, SetupError};
+use crate::wording::front_table;
 use std::path::{Path, PathBuf};
-use std::time::{Duration, Instant};
+use std::time::Duration;
 
 /// Search formulas for a dataset: a front of error against GPU cycles
 ///
@@ -100,98 +96,68 @@ fn budget(text: &str) -> Result<f64, String> {
 
 pub fn run(args: &Args, common: &Common) -> Result<(), Failure> {
     let mut timings = Timings::new();
-    let start = Instant::now();
-    let plan = Plan::of(args, common)?;
-    let Plan { subject, mut run, grammar, profile, guesses, folder, replaces, checkpoint } = plan;
-    let dataset = &subject.dataset;
-    let incumbents = subject.published(&run.dataset, &profile)?;
-    let problem = Problem::new(dataset, &grammar, &profile, &run.settings);
-    timings.note("reading");
     let stop = interrupts::watch();
-    // One that was killed before its first candidate begins once more.
-    let begun = checkpoint.filter(|checkpoint| checkpoint.search.counts().considered > 0);
-    let before = if begun.is_some() { run.seconds } else { 0.0 };
-    let time = time_of(&run.budget).map(|time| Duration::from_secs_f64((time - before).max(0.0)));
-    let rows = subject.whole.search.rows() + subject.whole.validation.rows();
-    let mut times = Timetable::new(start, time, rows, &stop);
-    let (mut search, mut partial) = match begun {
-        Some(Checkpoint { search, trace, census, .. }) => {
-            (search, PartialRun::resumed(folder, trace, census))
-        }
-        None => {
-            let mut search = Search::new(run.settings.clone());
-            let mut partial = PartialRun::new(folder, replaces);
-            run = so_far(&run, &search, 0.0);
-            partial.checkpoint_or_warn(&run, &search);
-            enumerate(&mut search, &problem, run.exhaustive, &times.starting())?;
-            search.settle_until(&guesses, &problem, &times.search());
-            timings.note("start");
-            (search, partial)
-        }
-    };
-    let budget = run.budget;
-    let seconds =
-        evolve(&budget, common, &mut search, &problem, before, &mut times, |point, search| {
-            let seconds = point.seconds;
-            partial.record(point, search, &problem, || so_far(&run, search, seconds));
-        });
-    run = so_far(&run, &search, seconds);
+    let Plan { subject, session } = Plan::of(args, common)?;
+    let mut session = session.since(timings.start()).until_asked(&stop);
+    let run = session.record();
+    let profile = session.search().problem().profile();
+    let incumbents = subject.published(&run.dataset, profile)?;
+    timings.note("reading");
+    session.begin().map_err(|error| match error {
+        SetupError::TooMany { .. } => Failure::usage(format!("--exhaustive: {error}")),
+        error => error.into(),
+    })?;
+    timings.note("start");
+    search(&mut session, common)?;
     timings.note("search");
-    let (front, minimax) = finish::fronts(&search, &problem, &mut times, &mut timings, common);
-    let written = partial.finish(&run, &front, &minimax, &incumbents, &search);
+    let phases = Phases::new(common, &mut timings);
+    let outcome = session.finish(&|phase, share| phases.hear(phase, share));
+    let Outcome { run, front, .. } = &outcome;
+    let table = front_table(front, &incumbents, &run.names().outputs);
+    let written = session.write(&outcome, vec![(FRONT_TABLE.to_owned(), table.clone().into())]);
     // Whatever became of the files, what was found is shown.
-    show(common, &run, &front, &incumbents, partial.folder())?;
+    let folder = session.folder().unwrap_or(Path::new("")).to_owned();
+    show(common, &outcome, table, &folder)?;
     written?;
     timings.note("files");
-    report::write(partial.folder(), common, &times.writing())?;
+    let gathered = Gathered::of(&outcome, subject.dataset, incumbents);
+    report::write(&gathered, &folder, common, &session.time_left())?;
     timings.note("page and pictures");
-    say_where(common, &run, partial.folder());
+    say_where(common, run, &folder);
     if args.timings {
         eprintln!("{timings}");
     }
     if stop.requests() > 0 {
-        let done = format!(
-            "interrupted after {seconds:.1} s; {} is whole, and --resume goes on with it",
-            partial.folder().display()
-        );
-        return Err(Failure::new(Exit::Interrupted, anyhow::Error::msg(done)));
+        let seconds = run.seconds;
+        let folder = folder.display();
+        return Err(Failure::interrupted(format!(
+            "interrupted after {seconds:.1} s; {folder} is whole, and --resume goes on with it"
+        )));
     }
     if front.members.is_empty() {
-        let archived = search.archive().members().len();
-        let reason = refusals::of_all(&run, archived);
-        return Err(Failure::new(Exit::Unmet, anyhow::Error::msg(reason)));
+        let reason = refusals::of_all(run, outcome.archived);
+        return Err(Failure::unmet(reason));
     }
-    tiers::check(&run, &front)
+    tiers::check(run, front)
 }
 
-/// What a run is at some point of its search.
-fn so_far(run: &Run, search: &Search, seconds: f64) -> Run {
-    Run {
-        generations: search.generation(),
-        seconds,
-        counts: search.counts(),
-        enumeration: search.enumeration(),
-        ..run.clone()
+/// Goes on as long as it may.
+fn search(session: &mut Session, common: &Common) -> Result<(), Failure> {
+    let bar = LiveFront::new(common);
+    let mut warned = String::new();
+    loop {
+        let step = session.step()?;
+        let warning = session.take_warning().map(|error| Failure::from(error).error.to_string());
+        if let Some(warning) = warning.filter(|warning| *warning != warned) {
+            to_stderr(&format!(
+                "warning: {warning}\nthe search goes on, but could not be resumed from here"
+            ));
+            warned = warning;
+        }
+        let Some(progress) = step else { break };
+        bar.show(&progress);
     }
-}
-
-/// With `--exhaustive`, so many structures at most: a few minutes.
-const MOST_ENUMERATED: usize = 200_000;
-
-fn enumerate(
-    search: &mut Search,
-    problem: &Problem,
-    asked: Option<f64>,
-    deadline: &Deadline,
-) -> Result<(), Failure> {
-    let (cost, most) = asked.map_or(Enumeration::USUAL, |cost| (cost, MOST_ENUMERATED));
-    search.enumerate_until(problem, cost, most, deadline);
-    if asked.is_some() && search.enumeration().is_none() && !deadline.is_past() {
-        let message = format!(
-            "--exhaustive: there are too many formulas of at most {cost} cycles to try all (more than {MOST_ENUMERATED}, or of too many inputs); ask for fewer cycles"
-        );
-        return Err(Failure::usage(message));
-    }
+    bar.clear();
     Ok(())
 }
 
@@ -200,21 +166,16 @@ fn share(text: &str) -> Result<f64, String> {
     share.ok_or_else(|| "a share is from 0 to 1".into())
 }
 
-fn show(
-    common: &Common,
-    run: &Run,
-    front: &Front,
-    incumbents: &[Published],
-    folder: &Path,
-) -> Result<(), Failure> {
+fn show(common: &Common, outcome: &Outcome, table: String, folder: &Path) -> Result<(), Failure> {
+    let Outcome { run, front, .. } = outcome;
     let names = run.names();
     let records: Vec<_> = front.members.iter().map(|m| MemberRecord::new(m, &names)).collect();
-    let mut text = front_table(front, incumbents, &names.outputs) + &tiers::table(run, front);
+    let mut text = table + &tiers::table(run, front);
     if let Some(knee) = front.knee() {
-        let snippet = run_folder::snippet(run, knee, crate::emit::Language::Hlsl);
         text += &format!(
-            "\nThe knee, as HLSL (other members and languages: lgp emit {} --lang wgsl --pick N):\n\n{snippet}",
-            folder.display()
+            "\nThe knee, as HLSL (other members and languages: lgp emit {} --lang wgsl --pick N):\n\n{}",
+            folder.display(),
+            outcome.snippet(knee, Language::Hlsl)
         );
     }
     common.result(&records, &text)

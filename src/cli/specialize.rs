@@ -1,13 +1,14 @@
 use super::eval::{assigned_outputs, settled};
 use super::run_folder::{self, Which};
-use super::subject::Subject;
-use super::{Common, Exit, Failure, columns::Columns};
+use super::{Common, Failure, columns::Columns};
 use crate::cost::Profile;
 use crate::fit::Measure;
 use crate::program::{Names, Program};
-use crate::report::table::{cycles_text, error_text, front_table, title};
+use crate::run::MemberRecord;
+use crate::run::Subject;
 use crate::scene::{Change, Specialization, Step, specialize};
-use crate::search::{Front, FrontMember, MemberRecord};
+use crate::search::{Front, FrontMember};
+use crate::wording::{cycles_text, error_text, front_table, title};
 use serde::Serialize;
 use std::fmt::Write;
 use std::path::{Path, PathBuf};
@@ -62,7 +63,7 @@ struct StepRecord {
 }
 
 pub fn run(args: &Args, common: &Common) -> Result<(), Failure> {
-    let subject = Subject::load(&args.dataset, Some(&args.scene), &args.columns)?;
+    let subject = Subject::load(&args.dataset, Some(&args.scene), |data| args.columns.of(data))?;
     let profile = Profile::find(&args.gpu)?;
     let measure = args.loss.unwrap_or(Measure::usual(&subject.dataset.search));
     let limit = args.max_error.or(tiers_allow(&subject)).unwrap_or(f64::INFINITY);
@@ -103,7 +104,7 @@ fn formula(args: &Args, subject: &Subject) -> Result<(Program, Vec<String>), Fai
                 "no published formula for {} is called `{}`{meant} (there are: {}), and it is no folder; a formula is written as in \"bias = 1 - n_dot_v\"",
                 subject.whole.name, args.formula, names.join(", ")
             );
-            Failure::new(Exit::Input, anyhow::Error::msg(message))
+            Failure::input(message)
         });
     }
     let (program, names) = settled(assigned_outputs(&args.formula, &subject.whole.names())?)?;
@@ -134,7 +135,7 @@ impl Task<'_> {
                 defined.join(", "),
                 dataset.names().outputs.join(", ")
             );
-            Failure::new(Exit::Input, anyhow::Error::msg(message))
+            Failure::input(message)
         })
     }
 
@@ -148,7 +149,7 @@ impl Task<'_> {
                 folder.display(),
                 self.subject.whole.name
             );
-            return Err(Failure::new(Exit::Input, anyhow::Error::msg(message)));
+            return Err(Failure::input(message));
         }
         let done: Result<Vec<Specialization>, Failure> =
             front.members.iter().map(|one| self.of_formula(&one.program, &outputs)).collect();

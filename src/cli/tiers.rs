@@ -1,10 +1,11 @@
 //! The tiers of a run's scene: what each can afford.
 
-use super::{Exit, Failure};
-use crate::report::table::{cycles_text, error_text};
+use super::Failure;
+use crate::run::Run;
 use crate::scene::Tier;
-use crate::search::{Front, FrontMember, Run};
+use crate::search::{Front, FrontMember};
 use crate::suggest::did_you_mean;
+use crate::wording::{cycles_text, error_text};
 
 fn of(run: &Run) -> &[(String, Tier)] {
     run.scene.as_ref().map_or(&[], |scene| &scene.tiers)
@@ -62,5 +63,5 @@ fn unmet(name: &str, tier: Tier) -> Failure {
     let message = format!(
         "tier {name}: no formula of the front is within its limits ({limits}); search longer, or allow more"
     );
-    Failure::new(Exit::Unmet, anyhow::Error::msg(message))
+    Failure::unmet(message)
 }

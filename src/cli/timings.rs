@@ -4,6 +4,7 @@ use std::fmt;
 use std::time::Instant;
 
 pub struct Timings {
+    start: Instant,
     last: Instant,
     phases: Vec<(&'static str, f64)>,
 }
@@ -11,7 +12,13 @@ pub struct Timings {
 impl Timings {
     /// The first phase begins.
     pub fn new() -> Timings {
-        Timings { last: Instant::now(), phases: Vec::new() }
+        let start = Instant::now();
+        Timings { start, last: start, phases: Vec::new() }
+    }
+
+    /// When the first phase began.
+    pub fn start(&self) -> Instant {
+        self.start
     }
 
     /// A phase is over, and the next begins.

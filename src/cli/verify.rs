@@ -1,13 +1,12 @@
-use super::columns::Columns;
-use super::subject::Subject;
-use super::{Common, Exit, Failure};
+use super::{Common, Failure};
 use crate::dataset::Dataset;
 use crate::emit::{Language, MAX_SNIPPET, ReadBack, Stated, StatedError, read_back};
 use crate::eval::{Evaluator, OutputError, Samples, Score, Tape};
 use crate::op::Op;
 use crate::program::{Arg, Names, Program};
-use crate::report::table::error_text;
+use crate::run::Subject;
 use crate::suggest::did_you_mean;
+use crate::wording::error_text;
 use serde::Serialize;
 use std::collections::BTreeMap;
 use std::fmt::Display;
@@ -65,7 +64,7 @@ pub fn run(args: &Args, common: &Common) -> Result<(), Failure> {
     let text = snippet_text(&args.snippet)?;
     let code = read_back(language, &text).map_err(|error| unusable(&args.snippet, &error))?;
     let Subject { dataset: whole, .. } =
-        Subject::load(&args.dataset, args.scene.as_deref(), &Columns::default())?;
+        Subject::load(&args.dataset, args.scene.as_deref(), |data| Ok(data.clone()))?;
     let names = columns(code.names.clone(), args.outputs.as_deref(), &whole, &args.snippet)?;
     let dataset = whole.select(Some(&names.inputs), Some(&names.outputs))?;
     let score = score(&code, &dataset);
@@ -96,7 +95,7 @@ pub fn run(args: &Args, common: &Common) -> Result<(), Failure> {
 }
 
 fn unmet(path: &Path, reason: &dyn Display) -> Failure {
-    Failure::new(Exit::Unmet, anyhow::anyhow!("{}: {reason}", path.display()))
+    Failure::unmet(format!("{}: {reason}", path.display()))
 }
 
 /// The file, as far as a snippet can be long.
@@ -134,7 +133,7 @@ fn score(code: &ReadBack, dataset: &Dataset) -> Score {
 }
 
 fn unusable(path: &Path, reason: &dyn Display) -> Failure {
-    Failure::new(Exit::Input, anyhow::anyhow!("{}: {reason}", path.display()))
+    Failure::input(format!("{}: {reason}", path.display()))
 }
 
 fn language_of(path: &Path) -> Result<Language, Failure> {

@@ -13,6 +13,7 @@ mod incumbent;
 mod kind;
 mod name;
 mod prune;
+mod sampled;
 mod select;
 mod unit;
 
@@ -22,6 +23,7 @@ pub use file::{StagedFile, TEMPORARY, remove_file, replace_file, witness_file_op
 pub use incumbent::{Comparable, Incumbent, incumbents_file, incumbents_for, load_incumbents};
 pub use kind::{check_replaceable, read_file, read_text};
 pub use name::{LONGEST_NAME, NameFault, check_name, check_text};
+pub use sampled::{Axis, axis};
 pub use unit::{joint_unit, output_units, unit};
 
 use crate::program::Names;

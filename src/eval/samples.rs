@@ -9,8 +9,8 @@ use crate::dataset::Split;
 pub(super) struct Block(pub [f32; BLOCK]);
 
 /// The rows of a split, column by column, each column padded to whole blocks by its last
-/// value, with weight 0.
-#[derive(Clone, Debug)]
+/// value, with weight 0. The default has no rows.
+#[derive(Clone, Debug, Default)]
 pub struct Samples {
     rows: usize,
     blocks: usize,

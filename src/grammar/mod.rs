@@ -102,6 +102,14 @@ impl Grammar {
         })
     }
 
+    /// Whether it keeps the rules that its file would be held to.
+    ///
+    /// # Errors
+    /// The first that it breaks.
+    pub fn check(&self) -> Result<(), FileError> {
+        Grammar::try_from(<(String, File)>::from(self.clone())).map(|_| ())
+    }
+
     /// Whether formulas may be written with the operation.
     pub fn has(&self, wanted: Op) -> bool {
         self.operations.iter().any(|(op, _)| *op == wanted)

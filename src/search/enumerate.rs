@@ -12,6 +12,7 @@ use super::{Problem, Search, near_the_least};
 use crate::archive::Member;
 use crate::cost::CostScratch;
 use crate::deadline::Deadline;
+use crate::eval::Samples;
 use crate::fit::{Fitter, Measure, Rounds, Stop, minimax};
 use crate::program::{Arg, Constants, Draft, structural_hash};
 use crate::simplify::Simplifier;
@@ -46,44 +47,44 @@ impl Enumeration {
 impl Search {
     /// Takes in all programs of at most `cost` cycles, as far as the budget goes, fitted; nothing where
     /// they differ in more than `most` structures.
-    pub fn enumerate(&mut self, problem: &Problem, cost: f64, most: usize) {
-        self.enumerate_until(problem, cost, most, &Deadline::NEVER);
+    pub fn enumerate(&mut self, cost: f64, most: usize) {
+        self.enumerate_until(cost, most, &Deadline::NEVER);
     }
 
     /// [`Search::enumerate`], cut at a deadline: what was fitted by then is kept, and counts as any start, not
     /// as all programs.
-    pub fn enumerate_until(
-        &mut self,
-        problem: &Problem,
-        cost: f64,
-        most: usize,
-        deadline: &Deadline,
-    ) {
-        let cost = cost.min(self.settings.max_cost);
-        let Some(structures) = structures(problem, cost, most, deadline) else { return };
-        let members = best_of(&structures, problem, deadline);
+    pub fn enumerate_until(&mut self, cost: f64, most: usize, deadline: &Deadline) {
+        let cost = cost.min(self.problem.goal.max_cost);
+        let Some(structures) = structures(&self.problem, cost, most, deadline) else { return };
+        let members = best_of(&structures, &self.problem, &self.race, deadline);
         let drafts: Vec<Draft> = members.iter().map(|member| member.draft.clone()).collect();
         for member in members {
-            self.archive.offer(member);
+            self.state.archive.offer(member);
         }
         let is_whole = !deadline.is_past();
-        self.settle_searched(&drafts, problem, deadline);
-        self.enumeration = is_whole.then_some(Enumeration { cost, structures: structures.len() });
+        self.settle_searched(&drafts, deadline);
+        self.state.enumeration =
+            is_whole.then_some(Enumeration { cost, structures: structures.len() });
     }
 
     /// What was enumerated before the first generation.
     pub fn enumeration(&self) -> Option<Enumeration> {
-        self.enumeration
+        self.state.enumeration
     }
 }
 
 /// The structures that come near the least error at their cost, fitted on all samples.
-fn best_of(structures: &[Draft], problem: &Problem, deadline: &Deadline) -> Vec<Member> {
+fn best_of(
+    structures: &[Draft],
+    problem: &Problem,
+    race: &Samples,
+    deadline: &Deadline,
+) -> Vec<Member> {
     let new_fitter = || Fitter::until(&deadline.moment_alone());
     let fitted: Vec<Option<Member>> = structures
         .par_iter()
         .map_init(Fitter::default, |fitter, draft| {
-            if deadline.is_past() { None } else { fitted(fitter, draft, problem) }
+            if deadline.is_past() { None } else { fitted(fitter, draft, problem, race) }
         })
         .collect();
     let fitted: Vec<Member> = fitted.into_iter().flatten().collect();
@@ -93,7 +94,7 @@ fn best_of(structures: &[Draft], problem: &Problem, deadline: &Deadline) -> Vec<
             return None;
         }
         member.loss = fitter.fit(&mut member.draft, &problem.all, ON_ALL) * problem.scale();
-        if problem.measure == Measure::Max {
+        if problem.goal.measure == Measure::Max {
             let rounds = Rounds::TO_CONVERGENCE;
             member.loss = minimax(fitter, &mut member.draft, &problem.all, rounds).powi(2);
         }
@@ -127,7 +128,7 @@ fn structures(
         // Of many a parent the children are known already: they are not kept for long.
         for parents in latest.chunks(PARENTS) {
             let count: usize =
-                parents.iter().map(|draft| insertion_count(draft, problem.grammar)).sum();
+                parents.iter().map(|draft| insertion_count(draft, &problem.grammar)).sum();
             children = children.checked_sub(count)?;
             let grow = |draft| {
                 let growth = (!deadline.is_past()).then(|| grown(draft, problem, cost));
@@ -184,7 +185,7 @@ fn grown(draft: &Draft, problem: &Problem, cost: f64) -> Vec<(u64, Draft)> {
     let mut simple = Draft::default();
     let mut known = HashSet::new();
     let mut grown = Vec::new();
-    insertions(draft, problem.grammar, &mut |child| {
+    insertions(draft, &problem.grammar, &mut |child| {
         simplifier.simplify(child, &mut simple);
         // An infinite constant is free to a compiler: there would be no end of formulas with one.
         if reads_only_constants(&simple) {
@@ -201,7 +202,7 @@ fn grown(draft: &Draft, problem: &Problem, cost: f64) -> Vec<(u64, Draft)> {
 }
 
 /// A structure with the best constants of several starts, on the subset.
-fn fitted(fitter: &mut Fitter, draft: &Draft, problem: &Problem) -> Option<Member> {
+fn fitted(fitter: &mut Fitter, draft: &Draft, problem: &Problem, race: &Samples) -> Option<Member> {
     if !problem.admits(draft) {
         return None;
     }
@@ -213,8 +214,7 @@ fn fitted(fitter: &mut Fitter, draft: &Draft, problem: &Problem) -> Option<Membe
         if start > 0 {
             draft.consts.iter_mut().for_each(|c| *c = random_constant(&mut rng));
         }
-        let subset = &problem.subset;
-        let loss = fitter.fit(&mut draft, subset, ON_SUBSET) / subset.total_weight();
+        let loss = fitter.fit(&mut draft, race, ON_SUBSET) / race.total_weight();
         if loss.is_finite() && best.as_ref().is_none_or(|known| loss < known.loss) {
             best = Some(Member { cost, loss, draft });
         }
@@ -225,11 +225,10 @@ fn fitted(fitter: &mut Fitter, draft: &Draft, problem: &Problem) -> Option<Membe
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::cost::Profile;
     use crate::dataset::{Column, Dataset, Split};
     use crate::grammar::Grammar;
     use crate::program::{Names, Program, parse, print};
-    use crate::search::Settings;
+    use crate::search::Method;
 
     fn line() -> Dataset {
         let xs: Vec<f32> = (0..50).map(|i| i as f32 / 49.0).collect();
@@ -249,11 +248,10 @@ mod tests {
 
     #[test]
     fn every_structure_of_one_multiply_add_is_found() {
-        let (data, gpu) = (line(), Profile::find("gcn").unwrap());
+        let data = line();
         let text = "(operations: {\"add\": 1, \"sub\": 1, \"mul\": 1}, max_instructions: 8)";
         let grammar = Grammar::parse("linear", text).unwrap();
-        let settings = Settings::default();
-        let problem = Problem::new(&data, &grammar, &gpu, &settings);
+        let problem = Problem::of(data).grammar(grammar).build().unwrap();
         let names = Names::new(["x"], ["y"]);
         let found: HashSet<u64> =
             structures(&problem, 1.0, 1000, &Deadline::NEVER).unwrap().iter().map(hash).collect();
@@ -282,8 +280,8 @@ mod tests {
             assert!(cost <= 1.0, "{}", print(&Program::verify(draft.clone()).unwrap(), &names));
         }
         assert_eq!(structures(&problem, 1.0, all.len() - 1, &Deadline::NEVER), None);
-        let mut search = Search::new(settings.clone());
-        search.enumerate(&problem, 1.0, all.len());
+        let mut search = Search::new(problem, Method::default()).unwrap();
+        search.enumerate(1.0, all.len());
         assert!(search.archive().best_loss(1.0) < 1e-12);
         assert_eq!(search.enumeration().map(|e| e.structures), Some(all.len()));
     }
@@ -291,14 +289,13 @@ mod tests {
     /// Two outputs, with a difference of equal values that may become a divisor: still few.
     #[test]
     fn infinite_constants_make_no_structures() {
-        let (mut data, gpu) = (line(), Profile::find("gcn").unwrap());
+        let mut data = line();
         let other = Column { name: "z".into(), ..data.outputs[0].clone() };
         data.outputs.push(other);
         for split in [&mut data.search, &mut data.validation] {
             split.columns.push(split.columns[1].clone());
         }
-        let grammar = Grammar::find("shader").unwrap();
-        let problem = Problem::new(&data, &grammar, &gpu, &Settings::default());
+        let problem = Problem::of(data).build().unwrap();
         let all = structures(&problem, 1.0, 3000, &Deadline::NEVER).unwrap();
         assert!(all.len() > 1000 && !all.iter().any(reads_only_constants), "{}", all.len());
     }

@@ -3,7 +3,7 @@
 
 use super::polish::{as_found, polish, promising, with_short_laws};
 use super::rounding::beyond_rounding;
-use super::{Front, FrontMember, Problem, Search};
+use super::{Front, FrontMember, Search};
 use crate::archive::Member;
 use crate::deadline::Deadline;
 use crate::fit::{Fitter, Measure, Stop};
@@ -44,11 +44,12 @@ impl Work<'_> {
 impl Front {
     /// [`Front::of`] without verdicts, cut at a deadline: members whose turn does not come are as the search
     /// left them.
-    pub fn polished(search: &Search, problem: &Problem, work: &Work) -> Front {
-        let measure = problem.measure;
-        let archived = archived(search, problem);
+    pub fn polished(search: &Search, work: &Work) -> Front {
+        let problem = search.problem();
+        let measure = problem.goal.measure;
+        let archived = archived(search);
         let drafts = match measure {
-            Measure::Max => match contending(search, problem, measure, work) {
+            Measure::Max => match contending(search, measure, work) {
                 (drafts, false) => drafts,
                 (drafts, true) => [drafts, archived].concat(),
             },
@@ -64,24 +65,19 @@ impl Front {
                 false => polish(draft, problem, &samples, &names, measure, &work.deadline),
             }
         });
-        Front::affordable(members.into_iter().flatten(), search, problem, measure)
+        Front::affordable(members.into_iter().flatten(), search, measure)
     }
 
     /// [`Front::in_measure`] without verdicts, cut at a deadline; then the members of another front are
     /// among those that compete.
-    pub fn polished_in(
-        search: &Search,
-        problem: &Problem,
-        measure: Measure,
-        known: &Front,
-        work: &Work,
-    ) -> Front {
-        if measure == problem.measure {
+    pub fn polished_in(search: &Search, measure: Measure, known: &Front, work: &Work) -> Front {
+        let problem = search.problem();
+        if measure == problem.goal.measure {
             return known.clone();
         }
         let (drafts, mut is_cut) = match measure {
-            Measure::Max => contending(search, problem, measure, work),
-            _ => (archived(search, problem), false),
+            Measure::Max => contending(search, measure, work),
+            _ => (archived(search), false),
         };
         let names = problem.dataset.names();
         let samples = problem.all_in(measure);
@@ -96,17 +92,17 @@ impl Front {
         if is_cut {
             members.extend(known.members.iter().cloned());
         }
-        Front::affordable(members.into_iter(), search, problem, measure)
+        Front::affordable(members.into_iter(), search, measure)
     }
 
     /// What is brought into its range by polishing may have become too dear.
     fn affordable(
         members: impl Iterator<Item = FrontMember>,
         search: &Search,
-        problem: &Problem,
         measure: Measure,
     ) -> Front {
-        let most = search.settings().max_cost;
+        let problem = search.problem();
+        let most = problem.goal.max_cost;
         let members = members.filter(|member| member.cost <= most);
         let members = with_short_laws(members.collect(), problem, measure);
         Front::from_members(beyond_rounding(members, problem, measure), measure)
@@ -115,9 +111,10 @@ impl Front {
 
 /// The archive's drafts, the most valuable first; of an empty one the best constant, so that there always is
 /// a front.
-fn archived(search: &Search, problem: &Problem) -> Vec<Draft> {
+fn archived(search: &Search) -> Vec<Draft> {
     let members = search.archive().members();
     if members.is_empty() {
+        let problem = search.problem();
         let mut constant = Draft { inputs: problem.all.inputs(), ..Draft::default() };
         for output in 0..problem.all.outputs() {
             let value = constant.constant(0.5 + output as f32);
@@ -152,14 +149,10 @@ fn by_value(front: &[(f64, f64)]) -> Vec<usize> {
 }
 
 /// What may be on the front for the maximum error, and whether the deadline left some out.
-fn contending(
-    search: &Search,
-    problem: &Problem,
-    measure: Measure,
-    work: &Work,
-) -> (Vec<Draft>, bool) {
-    let mut drafts = archived(search, problem);
+fn contending(search: &Search, measure: Measure, work: &Work) -> (Vec<Draft>, bool) {
+    let mut drafts = archived(search);
     drafts.extend(search.contenders().into_iter().cloned());
+    let problem = search.problem();
     let samples = problem.all_in(measure);
     // As long to look as to polish what is worth it.
     let half = work.deadline.left().map(|left| left / 2);
@@ -178,16 +171,18 @@ pub struct Rehearsal {
 
 impl Rehearsal {
     /// Finishes the dearest member, and takes the others to be a little faster.
-    pub fn of(search: &Search, problem: &Problem, deadline: &Deadline) -> Rehearsal {
+    pub fn of(search: &Search, deadline: &Deadline) -> Rehearsal {
         let members = search.archive().members();
         let Some(dearest) = members.last() else { return Rehearsal::default() };
+        let problem = search.problem();
         let names = problem.dataset.names();
         let start = Instant::now();
-        let samples = problem.all_in(problem.measure);
-        let polished = polish(&dearest.draft, problem, &samples, &names, problem.measure, deadline);
+        let samples = problem.all_in(problem.goal.measure);
+        let polished =
+            polish(&dearest.draft, problem, &samples, &names, problem.goal.measure, deadline);
         let polish = start.elapsed();
         let start = Instant::now();
-        let mut front = Front::from_members(polished.into_iter().collect(), problem.measure);
+        let mut front = Front::from_members(polished.into_iter().collect(), problem.goal.measure);
         front.judge_until(&problem.questions(), &names, &|| deadline.is_past());
         Rehearsal::scaled(polish, start.elapsed(), members.len(), rayon::current_num_threads())
     }

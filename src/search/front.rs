@@ -1,6 +1,6 @@
 //! The front: what a search leaves behind.
 
-use super::{Problem, Search, Work};
+use super::{Search, Work};
 use crate::cost::{Cost, Profile};
 use crate::dataset::Dataset;
 use crate::eval::{Evaluator, OutputError, Score};
@@ -80,6 +80,13 @@ impl FrontMember {
     }
 }
 
+/// A published formula, scored as a member would be.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Published {
+    pub name: String,
+    pub member: FrontMember,
+}
+
 /// An error smaller than that of the cheapest member by more than this counts as none where logarithms are
 /// compared.
 const LEAST_ERROR: f64 = 1e-9;
@@ -100,17 +107,18 @@ impl Front {
     /// The archive's members, polished for what the search makes small: constants fitted to
     /// convergence on all of the search split and shortened; then scored, those not finite
     /// somewhere, refuted in what is required of them, or dominated dropped, and the rest judged.
-    pub fn of(search: &Search, problem: &Problem) -> Front {
-        Front::in_measure(search, problem, problem.measure)
+    pub fn of(search: &Search) -> Front {
+        Front::in_measure(search, search.problem().goal.measure)
     }
 
     /// [`Front::of`], polished and judged by any measure. For the maximum error, which other searches find
     /// only by way of theirs, the islands' best compete as well.
-    pub fn in_measure(search: &Search, problem: &Problem, measure: Measure) -> Front {
+    pub fn in_measure(search: &Search, measure: Measure) -> Front {
         let work = &Work::TO_THE_END;
-        let mut front = match measure == problem.measure {
-            true => Front::polished(search, problem, work),
-            false => Front::polished_in(search, problem, measure, &Front::default(), work),
+        let problem = search.problem();
+        let mut front = match measure == problem.goal.measure {
+            true => Front::polished(search, work),
+            false => Front::polished_in(search, measure, &Front::default(), work),
         };
         front.judge(&problem.questions(), &problem.dataset.names());
         front

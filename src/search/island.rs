@@ -3,7 +3,7 @@
 use super::polish::reads_only_constants;
 use super::population::{Individual, Population};
 use super::vary::{Rates, Variation, random_draft};
-use super::{Counts, Fate, Problem, Settings};
+use super::{Counts, Fate, Goal, Method, Problem};
 use crate::archive::{Archive, Member};
 use crate::cost::CostScratch;
 use crate::deadline::Deadline;
@@ -15,6 +15,7 @@ use crate::simplify::Simplifier;
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 use serde::{Deserialize, Serialize};
+use std::sync::Arc;
 
 /// Structures that an island remembers having fitted; a newer one takes the place of an older.
 const MEMORY: usize = 1 << 17;
@@ -86,6 +87,9 @@ pub(super) struct Island {
     under_way: Option<UnderWay>,
     #[serde(skip)]
     workshop: Workshop,
+    /// The samples on which candidates race.
+    #[serde(skip)]
+    race: Arc<Samples>,
 }
 
 /// How far an island is in a generation that it has begun: it goes on as if never stopped.
@@ -111,21 +115,22 @@ struct Workshop {
 }
 
 impl Island {
-    pub fn new(number: usize, settings: &Settings) -> Island {
+    pub fn new(number: usize, goal: &Goal, method: &Method) -> Island {
         let Way { share, by_family, by_maximum } = WAYS[number % WAYS.len()];
-        let max_cost = (settings.max_cost * share).ceil().min(settings.max_cost);
+        let max_cost = (goal.max_cost * share).ceil().min(goal.max_cost);
         // As many individuals on each island.
-        let crowd = settings.bucket_size as f64 * (settings.max_cost + 1.0);
+        let crowd = method.bucket_size as f64 * (goal.max_cost + 1.0);
         let size = crowd / (max_cost + 1.0) * if by_family { FAMILY_BUCKET } else { 1.0 };
         Island {
             population: Population::new(max_cost, by_family, size.round().max(1.0) as usize),
             archive: Archive::default(),
             counts: Counts::default(),
-            by_maximum: by_maximum && settings.measure == Measure::Max,
+            by_maximum: by_maximum && goal.measure == Measure::Max,
             rates: Rates::default(),
             seen: vec![0; MEMORY],
             under_way: None,
             workshop: Workshop::default(),
+            race: Arc::default(),
         }
     }
 
@@ -147,22 +152,22 @@ impl Island {
     pub fn generation(
         &mut self,
         problem: &Problem,
-        settings: &Settings,
+        method: &Method,
         stream: u64,
         deadline: &Deadline,
     ) -> bool {
-        let mut rng = ChaCha8Rng::seed_from_u64(settings.seed);
+        let mut rng = ChaCha8Rng::seed_from_u64(method.seed);
         rng.set_stream(stream);
         let begun = self.under_way.take();
         let mut under_way =
             begun.unwrap_or_else(|| UnderWay { considered: 0, word: 0, rates: self.rates.clone() });
         rng.set_word_pos(under_way.word);
-        let candidates = self.candidates(settings);
+        let candidates = self.candidates(problem.goal.max_cost, method.candidates);
         let was_done = under_way.considered >= candidates;
         self.workshop.variation.follow(&under_way.rates);
         self.workshop.fitter.deadline = deadline.moment_alone();
         while under_way.considered < candidates && !deadline.is_past() {
-            let made_by = self.conceive(&mut rng, problem, settings.immigrants);
+            let made_by = self.conceive(&mut rng, problem, method.immigrants);
             for (output, transform) in problem.transforms() {
                 transform.undo(&mut self.workshop.child, output);
             }
@@ -182,6 +187,11 @@ impl Island {
         is_done
     }
 
+    /// Candidates race on these samples from now on.
+    pub fn race_on(&mut self, samples: &Arc<Samples>) {
+        self.race = Arc::clone(samples);
+    }
+
     /// The next call of [`Island::generation`] begins one.
     pub fn end_generation(&mut self) {
         self.under_way = None;
@@ -189,9 +199,9 @@ impl Island {
 
     /// A fit takes a time that grows with instructions times constants, so about with the square of the
     /// cost: islands that spend less consider more, and none waits long for the others.
-    fn candidates(&self, settings: &Settings) -> usize {
-        let share = self.population.max_cost / settings.max_cost.max(1.0);
-        (settings.candidates as f64 / share.clamp(LEAST_SHARE, 1.0).powi(2)) as usize
+    fn candidates(&self, max_cost: f64, with_all_of_it: usize) -> usize {
+        let share = self.population.max_cost / max_cost.max(1.0);
+        (with_all_of_it as f64 / share.clamp(LEAST_SHARE, 1.0).powi(2)) as usize
     }
 
     /// Makes a child of the population, or a random draft where there is none, or for an immigrant. Gives
@@ -202,11 +212,11 @@ impl Island {
         match (self.population.pick(rng), self.population.pick(rng)) {
             (Some(parent), Some(donor)) if !immigrates => {
                 child.copy_from(&parent.draft);
-                variation.vary(rng, child, &donor.draft, problem.grammar)
+                variation.vary(rng, child, &donor.draft, &problem.grammar)
             }
             _ => {
                 let (inputs, outputs) = (problem.all.inputs(), problem.all.outputs());
-                random_draft(rng, inputs, outputs, problem.grammar, child);
+                random_draft(rng, inputs, outputs, &problem.grammar, child);
                 0
             }
         }
@@ -240,7 +250,7 @@ impl Island {
         }
         self.counts.fitted += 1;
         let admission = self.population.admission(&workshop.candidate, cost);
-        let loss = workshop.race(problem, admission, self.by_maximum)?;
+        let loss = workshop.race(&self.race, admission, self.by_maximum)?;
         if problem.holds(&workshop.candidate, &mut workshop.fitter.evaluator) {
             return Ok(Individual { draft: workshop.candidate.clone(), cost, loss, hash });
         }
@@ -256,9 +266,10 @@ impl Island {
         }
         let cost = problem.cost(candidate, scratch);
         let admission = self.population.admission(candidate, cost);
-        let mut loss = fitter.fit(candidate, &problem.subset, MORE_STEPS) * problem.subset_scale();
+        let mut loss =
+            fitter.fit(candidate, &self.race, MORE_STEPS) * (1.0 / self.race.total_weight());
         if loss < admission && self.by_maximum {
-            loss = levelled(fitter, candidate, &problem.subset, admission);
+            loss = levelled(fitter, candidate, &self.race, admission);
         }
         let fulfils = loss < admission && problem.holds(candidate, &mut fitter.evaluator);
         let hash = self.workshop.structure();
@@ -271,9 +282,9 @@ impl Island {
     fn nominate(&mut self, problem: &Problem, cost: f64, mut loss: f64) {
         let Workshop { fitter, candidate, .. } = &mut self.workshop;
         let wanted = self.archive.best_loss(cost) * SUBSET_TOLERANCE;
-        let by_maximum = problem.measure == Measure::Max;
+        let by_maximum = problem.goal.measure == Measure::Max;
         if by_maximum && !self.by_maximum {
-            loss = levelled(fitter, candidate, &problem.subset, wanted);
+            loss = levelled(fitter, candidate, &self.race, wanted);
         }
         if loss >= wanted {
             return;
@@ -352,9 +363,9 @@ impl Workshop {
     }
 
     /// Fits the candidate on the subset, as long as it may come below what it must beat; its loss.
-    fn race(&mut self, problem: &Problem, admission: f64, by_maximum: bool) -> Result<f64, Fate> {
+    fn race(&mut self, subset: &Samples, admission: f64, by_maximum: bool) -> Result<f64, Fate> {
         let Workshop { fitter, candidate, .. } = self;
-        let (subset, scale) = (&problem.subset, problem.subset_scale());
+        let scale = 1.0 / subset.total_weight();
         let first = fitter.fit(candidate, subset, FIRST_STEPS) * scale;
         if !first.is_finite() {
             return Err(Fate::NotFinite);

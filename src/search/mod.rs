@@ -9,45 +9,35 @@
 //! maximum error is to be small, it decides in the archive, and on every fourth island; on the others RMSE
 //! does, which is found out sooner.
 
-mod census;
-mod checkpoint;
 mod enumerate;
 mod finish;
-mod folder;
 mod front;
+mod goal;
 mod island;
 mod loaded;
-mod merge;
+mod method;
 mod polish;
 mod population;
 mod problem;
-mod record;
 mod require;
 mod rounding;
 mod scales;
-mod timetable;
 mod transform;
 mod vary;
 
-pub use census::{Census, Recurring};
-pub use checkpoint::Checkpoint;
 pub use enumerate::Enumeration;
 pub use finish::{Rehearsal, Work};
-pub use folder::{
-    CENSUS, CHECKPOINT, FRONT, Holding, MINIMAX_FRONT, RunFolder, TRACE, in_the_way, load_front,
-    load_run, load_text,
-};
-pub use front::{Front, FrontMember};
-pub use loaded::{MOST_CYCLES, MOST_ISLANDS};
-pub use merge::{Incompatible, merge};
-pub use problem::Problem;
-pub use record::{Budget, MemberRecord, RecordError, Run, TRACE_COSTS, TracePoint, trace_csv};
+pub use front::{Front, FrontMember, Published};
+pub use goal::{Goal, MOST_CYCLES};
+pub(crate) use loaded::not_negative;
+pub use method::{MOST_ISLANDS, Method};
+pub use problem::{Problem, ProblemBuilder, SetupError, USUAL_GPU, USUAL_GRAMMAR};
 pub use require::Requirement;
-pub use timetable::Timetable;
 pub use transform::Transform;
 
 use crate::archive::Archive;
 use crate::deadline::Deadline;
+use crate::eval::Samples;
 use crate::fit::Measure;
 use crate::program::{Constants, Draft, structural_hash};
 use island::Island;
@@ -55,54 +45,8 @@ use population::Individual;
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 use std::collections::HashSet;
+use std::sync::Arc;
 use std::time::Duration;
-
-/// What decides the course of a search, given its problem.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(default)]
-pub struct Settings {
-    pub seed: u64,
-    /// Populations that evolve apart; not the number of threads.
-    pub islands: usize,
-    /// Candidates that an island with the whole cost budget considers in a generation; one with less
-    /// considers more, up to a hundred times as many.
-    pub candidates: usize,
-    /// The share of candidates that are random rather than children; all of them make it a search by
-    /// random restarts and fitting, to compare with.
-    pub immigrants: f64,
-    /// Individuals that an island keeps at each cost.
-    pub bucket_size: usize,
-    /// Cycles that a candidate may cost at most.
-    pub max_cost: f64,
-    /// Generations between migrations.
-    pub migration_interval: u64,
-    /// Samples on which candidates race; all of them where there are fewer.
-    pub subset: usize,
-    /// What is made small.
-    pub measure: Measure,
-    /// What every formula must be.
-    pub requirements: Vec<Requirement>,
-    /// By output: the function of it that is searched for; where there are fewer, the output itself.
-    pub transforms: Vec<Option<Transform>>,
-}
-
-impl Default for Settings {
-    fn default() -> Settings {
-        Settings {
-            seed: 1,
-            islands: 8,
-            candidates: 400,
-            immigrants: 0.0,
-            bucket_size: 3,
-            max_cost: 40.0,
-            migration_interval: 20,
-            subset: 256,
-            measure: Measure::Rmse,
-            requirements: Vec::new(),
-            transforms: Vec::new(),
-        }
-    }
-}
 
 /// By rising cost, those whose error is less than `within` times that of every cheaper one.
 fn near_the_least<T>(
@@ -188,51 +132,141 @@ impl Counts {
         } += 1;
     }
 
-    fn add(&mut self, other: &Counts) {
-        self.considered += other.considered;
-        self.too_long += other.too_long;
-        self.too_dear += other.too_dear;
-        self.seen += other.seen;
-        self.fitted += other.fitted;
-        self.not_finite += other.not_finite;
-        self.hopeless += other.hopeless;
-        self.no_better += other.no_better;
-        self.inadmissible += other.inadmissible;
-        self.unfulfilled += other.unfulfilled;
-        self.admitted += other.admitted;
-        self.fitted_on_all += other.fitted_on_all;
+    pub(crate) fn add(&mut self, other: &Counts) {
+        // Destructured, so that none is forgotten.
+        let Counts {
+            considered,
+            too_long,
+            too_dear,
+            seen,
+            inadmissible,
+            fitted,
+            not_finite,
+            hopeless,
+            no_better,
+            unfulfilled,
+            admitted,
+            fitted_on_all,
+        } = other;
+        self.considered += considered;
+        self.too_long += too_long;
+        self.too_dear += too_dear;
+        self.seen += seen;
+        self.inadmissible += inadmissible;
+        self.fitted += fitted;
+        self.not_finite += not_finite;
+        self.hopeless += hopeless;
+        self.no_better += no_better;
+        self.unfulfilled += unfulfilled;
+        self.admitted += admitted;
+        self.fitted_on_all += fitted_on_all;
     }
 }
 
-/// A search under way; what is needed to go on with it, and nothing else.
-#[derive(Clone, Debug, Serialize, Deserialize)]
+/// A search of a problem, under way.
+#[derive(Clone, Debug)]
 pub struct Search {
-    settings: Settings,
+    problem: Arc<Problem>,
+    method: Method,
+    /// The samples on which candidates race.
+    race: Arc<Samples>,
+    state: State,
+}
+
+/// How far a search has come: what is needed to go on with it, beside its problem and method.
+#[derive(Clone, Debug, Serialize, Deserialize)]
+pub struct State {
     generation: u64,
     islands: Vec<Island>,
     archive: Archive,
     enumeration: Option<Enumeration>,
 }
 
-impl Search {
-    pub fn new(settings: Settings) -> Search {
-        let islands = (0..settings.islands).map(|i| Island::new(i, &settings)).collect();
-        Search { settings, generation: 0, islands, archive: Archive::default(), enumeration: None }
-    }
-
+impl State {
     /// Generations that are done.
     pub fn generation(&self) -> u64 {
         self.generation
     }
 
-    pub fn settings(&self) -> &Settings {
-        &self.settings
+    /// What became of all candidates so far.
+    pub fn counts(&self) -> Counts {
+        let mut counts = Counts::default();
+        self.islands.iter().for_each(|island| counts.add(&island.counts));
+        counts
+    }
+}
+
+impl Search {
+    /// A search that has not begun.
+    ///
+    /// # Errors
+    /// [`SetupError::Method`].
+    pub fn new(problem: impl Into<Arc<Problem>>, method: Method) -> Result<Search, SetupError> {
+        method.check().map_err(SetupError::Method)?;
+        let problem = problem.into();
+        let islands = (0..method.islands).map(|i| Island::new(i, &problem.goal, &method)).collect();
+        let archive = Archive::default();
+        let state = State { generation: 0, islands, archive, enumeration: None };
+        Ok(Search::with(problem, method, state))
+    }
+
+    /// A search that goes on from where one for the same goal by the same method came.
+    ///
+    /// # Errors
+    /// [`SetupError::Method`]; [`SetupError::State`] if no such search can have come there.
+    pub fn resume(
+        problem: impl Into<Arc<Problem>>,
+        method: Method,
+        state: State,
+    ) -> Result<Search, SetupError> {
+        let problem = problem.into();
+        method.check().map_err(SetupError::Method)?;
+        let (inputs, outputs) = (problem.all.inputs(), problem.all.outputs());
+        state.check(&problem.goal, &method, inputs, outputs).map_err(SetupError::State)?;
+        Ok(Search::with(problem, method, state))
+    }
+
+    fn with(problem: Arc<Problem>, method: Method, mut state: State) -> Search {
+        let race = Arc::new(problem.race(method.subset));
+        state.islands.iter_mut().for_each(|island| island.race_on(&race));
+        Search { problem, method, race, state }
+    }
+
+    /// What is searched for.
+    pub fn problem(&self) -> &Arc<Problem> {
+        &self.problem
+    }
+
+    /// How.
+    pub fn method(&self) -> &Method {
+        &self.method
+    }
+
+    /// How far it has come.
+    pub fn state(&self) -> &State {
+        &self.state
+    }
+
+    /// Generations that are done.
+    pub fn generation(&self) -> u64 {
+        self.state.generation
     }
 
     /// The best found so far, on the whole search split; [`Problem::natural`] makes formulas of its drafts, and
     /// [`Problem::error`] errors of its losses.
     pub fn archive(&self) -> &Archive {
-        &self.archive
+        &self.state.archive
+    }
+
+    /// The least error at no more than this cost, as [`FrontMember::search_error`] shows it; infinite where there is
+    /// none.
+    pub fn best_error(&self, cost: f64) -> f64 {
+        self.problem.error(self.archive().best_loss(cost))
+    }
+
+    /// How much the archive gains on the best constant: [`Archive::hypervolume`].
+    pub fn hypervolume(&self) -> f64 {
+        self.archive().hypervolume(self.problem.goal.max_cost, self.problem.constant_loss)
     }
 
     /// The islands' individuals of structures that the archive has left out, so far as they
@@ -244,8 +278,8 @@ impl Search {
         let mut known: HashSet<u64> =
             archive.members().iter().map(|member| structure(&member.draft)).collect();
         let mut contenders = Vec::new();
-        for island in &self.islands {
-            let share = match (self.settings.measure, island.by_maximum) {
+        for island in &self.state.islands {
+            let share = match (self.problem.goal.measure, island.by_maximum) {
                 (Measure::Max, true) => CONTENDING_BY_MAXIMUM,
                 (Measure::Max, false) => CONTENDING_BY_MEAN,
                 _ => CONTENDING,
@@ -261,61 +295,62 @@ impl Search {
 
     /// What became of all candidates so far.
     pub fn counts(&self) -> Counts {
-        let mut counts = Counts::default();
-        self.islands.iter().for_each(|island| counts.add(&island.counts));
-        counts
+        self.state.counts()
     }
 
     /// One generation of every island, in parallel on the current thread pool; the rest of one that
     /// was cut.
-    pub fn advance(&mut self, problem: &Problem) {
-        self.advance_until(problem, &Deadline::NEVER);
+    pub fn advance(&mut self) {
+        self.advance_until(&Deadline::NEVER);
     }
 
     /// [`Search::advance`], cut at a deadline: what was found by then is kept, and the next call goes on
     /// where this one stopped, as if nothing had been. Says whether the generation is done. (Fits on many
     /// samples that a moment cuts are not done again; pauses and requests to stop cut none.)
-    pub fn advance_until(&mut self, problem: &Problem, deadline: &Deadline) -> bool {
-        let (settings, generation) = (&self.settings, self.generation);
+    pub fn advance_until(&mut self, deadline: &Deadline) -> bool {
+        let (problem, method, state) = (&*self.problem, &self.method, &mut self.state);
         loop {
-            let done = self.islands.par_iter_mut().enumerate().map(|(i, island)| {
-                let stream = generation * settings.islands as u64 + i as u64;
-                island.generation(problem, settings, stream, &deadline.pausing_in(TURN))
+            let generation = state.generation;
+            let done = state.islands.par_iter_mut().enumerate().map(|(i, island)| {
+                let stream = generation * method.islands as u64 + i as u64;
+                island.generation(problem, method, stream, &deadline.pausing_in(TURN))
             });
             if done.reduce(|| true, |a, b| a && b) {
                 break;
             }
             if deadline.is_past() {
-                self.islands.iter().for_each(|island| self.archive.merge(&island.archive));
+                state.islands.iter().for_each(|island| state.archive.merge(&island.archive));
                 return false;
             }
         }
-        self.islands.iter_mut().for_each(Island::end_generation);
-        self.generation += 1;
-        self.barrier(problem, &deadline.moment_alone());
+        state.islands.iter_mut().for_each(Island::end_generation);
+        state.generation += 1;
+        self.barrier(&deadline.moment_alone());
         true
     }
 
     /// What islands learn of each other.
-    fn barrier(&mut self, problem: &Problem, deadline: &Deadline) {
-        for island in &self.islands {
-            self.archive.merge(&island.archive);
+    fn barrier(&mut self, deadline: &Deadline) {
+        let State { generation, islands, archive, .. } = &mut self.state;
+        for island in islands.iter() {
+            archive.merge(&island.archive);
         }
-        for island in &mut self.islands {
-            island.archive.clone_from(&self.archive);
+        for island in islands {
+            island.archive.clone_from(archive);
         }
-        if self.generation.is_multiple_of(self.settings.migration_interval) {
-            self.migrate(problem, deadline);
+        if generation.is_multiple_of(self.method.migration_interval) {
+            self.migrate(deadline);
         }
     }
 
     /// Each island's best go on to the next. Where that goes by another error, as drafts.
-    fn migrate(&mut self, problem: &Problem, deadline: &Deadline) {
+    fn migrate(&mut self, deadline: &Deadline) {
+        let (problem, islands) = (&*self.problem, &mut self.state.islands);
         let elites =
             |island: &Island| (island.by_maximum, island.population.elites().cloned().collect());
-        let mut arriving: Vec<(bool, Vec<Individual>)> = self.islands.iter().map(elites).collect();
+        let mut arriving: Vec<(bool, Vec<Individual>)> = islands.iter().map(elites).collect();
         arriving.rotate_right(1);
-        self.islands.par_iter_mut().zip(arriving).for_each(|(island, (by_maximum, migrants))| {
+        islands.par_iter_mut().zip(arriving).for_each(|(island, (by_maximum, migrants))| {
             match by_maximum == island.by_maximum {
                 true => island.welcome(migrants),
                 false => {
@@ -326,19 +361,20 @@ impl Search {
     }
 
     /// Starts every island with drafts from elsewhere, over the dataset's columns.
-    pub fn settle(&mut self, drafts: &[Draft], problem: &Problem) {
-        self.settle_until(drafts, problem, &Deadline::NEVER);
+    pub fn settle(&mut self, drafts: &[Draft]) {
+        self.settle_until(drafts, &Deadline::NEVER);
     }
 
     /// [`Search::settle`] of the first drafts, as many as the deadline leaves time for.
-    pub fn settle_until(&mut self, drafts: &[Draft], problem: &Problem, deadline: &Deadline) {
-        let drafts: Vec<Draft> = drafts.iter().map(|draft| problem.over_searched(draft)).collect();
-        self.settle_searched(&drafts, problem, deadline);
+    pub fn settle_until(&mut self, drafts: &[Draft], deadline: &Deadline) {
+        let drafts: Vec<Draft> =
+            drafts.iter().map(|draft| self.problem.over_searched(draft)).collect();
+        self.settle_searched(&drafts, deadline);
     }
 
-    fn settle_searched(&mut self, drafts: &[Draft], problem: &Problem, deadline: &Deadline) {
-        let islands = self.islands.par_iter_mut();
+    fn settle_searched(&mut self, drafts: &[Draft], deadline: &Deadline) {
+        let (problem, islands) = (&*self.problem, self.state.islands.par_iter_mut());
         islands.for_each(|island| island.settle_all(drafts, problem, deadline));
-        self.barrier(problem, deadline);
+        self.barrier(deadline);
     }
 }

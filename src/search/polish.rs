@@ -94,7 +94,7 @@ pub(super) fn with_short_laws(
         }
         let Ok(program) = Program::verify(draft) else { return member };
         let program = effective(&tidy(&program));
-        let short = FrontMember::new(program, problem.dataset, problem.profile, &names);
+        let short = FrontMember::new(program, &problem.dataset, &problem.profile, &names);
         let is_law = rounding.covers(&short.score, measure) && short.score.is_finite();
         let stays = is_law && short.cost <= member.cost && problem.shows(&short.program);
         if stays { short } else { member }
@@ -112,7 +112,7 @@ pub(super) fn as_found(draft: &Draft, problem: &Problem, names: &Names) -> Optio
     let mut simple = Draft::default();
     Simplifier::default().simplify(&problem.natural(draft), &mut simple);
     let program = effective(&Program::verify(simple).ok()?);
-    let member = FrontMember::new(program, problem.dataset, problem.profile, names);
+    let member = FrontMember::new(program, &problem.dataset, &problem.profile, names);
     (member.score.is_finite() && problem.shows(&member.program)).then_some(member)
 }
 
@@ -140,7 +140,7 @@ fn finished(
     });
     let finished = natural.flatten().flatten().filter_map(|program| {
         let program = effective(&tidy(&program));
-        let member = FrontMember::new(program, problem.dataset, problem.profile, names);
+        let member = FrontMember::new(program, &problem.dataset, &problem.profile, names);
         (!reads_only_constants(&member.program)).then_some(member)
     });
     let rounding = Rounding::of(problem);

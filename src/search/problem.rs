@@ -1,33 +1,32 @@
 //! What is searched for, laid out as a search works on it.
 
-use super::Settings;
+use super::Goal;
 use super::require::Checks;
 use super::scales::Scales;
 use super::transform::Transform;
 use crate::cost::{CostScratch, Profile};
-use crate::dataset::{Dataset, Split, joint_unit, output_units};
+use crate::dataset::{self, Dataset, Split, joint_unit, output_units};
 use crate::eval::{Evaluator, Samples, Tape};
 use crate::fit::Measure;
-use crate::grammar::Grammar;
+use crate::grammar::{FileError, Grammar};
 use crate::program::{Draft, Program};
 use crate::simplify::Placement;
 use std::borrow::Cow;
+use std::sync::Arc;
 
-/// What is searched for: a formula of some grammar for some samples, cheap on some GPU.
+/// What is searched for: formulas of some grammar for some samples, cheap on some GPU, as a [`Goal`] says.
 #[derive(Clone, Debug)]
-pub struct Problem<'a> {
-    pub dataset: &'a Dataset,
-    /// The dataset over the columns that are searched ([`scales`]).
-    searched: Cow<'a, Dataset>,
+pub struct Problem {
+    pub(super) dataset: Arc<Dataset>,
+    /// The dataset over the columns that are searched ([`super::scales`]).
+    searched: Arc<Dataset>,
     /// How those columns are scaled; none if they are the dataset's own.
     pub(super) scales: Option<Scales>,
-    pub grammar: &'a Grammar,
-    pub profile: &'a Profile,
-    pub(super) measure: Measure,
+    pub(super) grammar: Arc<Grammar>,
+    pub(super) profile: Arc<Profile>,
+    pub(super) goal: Goal,
     pub(super) checks: Checks,
-    transforms: Vec<Option<Transform>>,
     pub(super) all: Samples,
-    pub(super) subset: Samples,
     /// All samples without those that only hold formulas to an end; none where there are none.
     without_ends: Option<Samples>,
     /// What the best constant's loss is.
@@ -36,60 +35,161 @@ pub struct Problem<'a> {
     unit: f64,
 }
 
-impl<'a> Problem<'a> {
-    /// Lays the samples out, with a subset of `settings.subset` of them; where the maximum error is to be
-    /// small, and of as many at the ends of the inputs.
+/// A problem or a search that cannot be set up as asked.
+#[derive(Debug, thiserror::Error)]
+pub enum SetupError {
+    #[error(transparent)]
+    Dataset(#[from] dataset::Error),
+    #[error(transparent)]
+    File(#[from] FileError),
+    #[error("the goal cannot be meant: {0}")]
+    Goal(String),
+    #[error("the method cannot be meant: {0}")]
+    Method(String),
+    #[error(
+        "there are too many formulas of at most {cost} cycles to try all (more than {most}, or of too many inputs); ask for fewer cycles"
+    )]
+    TooMany { cost: f64, most: usize },
+    #[error("no search for this goal by this method comes there: {0}")]
+    State(String),
+}
+
+/// A problem in the making: [`Problem::of`].
+#[derive(Clone, Debug)]
+pub struct ProblemBuilder {
+    dataset: Arc<Dataset>,
+    grammar: Result<Arc<Grammar>, String>,
+    profile: Result<Arc<Profile>, String>,
+    goal: Goal,
+}
+
+/// What is not said otherwise.
+pub const USUAL_GRAMMAR: &str = "shader";
+pub const USUAL_GPU: &str = "gcn";
+
+impl ProblemBuilder {
+    /// What may be written, instead of the grammar `shader`: a grammar, as [`Grammar::find`] gives it.
+    pub fn grammar(self, grammar: impl Into<Arc<Grammar>>) -> ProblemBuilder {
+        ProblemBuilder { grammar: Ok(grammar.into()), ..self }
+    }
+
+    /// What formulas cost, instead of on `gcn`: a profile, as [`Profile::find`] gives it.
+    pub fn profile(self, profile: impl Into<Arc<Profile>>) -> ProblemBuilder {
+        ProblemBuilder { profile: Ok(profile.into()), ..self }
+    }
+
+    /// The same by the name of a profile or a mix, as in `gcn:2,turing:1`.
+    pub fn gpu(self, name_or_mix: &str) -> ProblemBuilder {
+        ProblemBuilder { profile: Err(name_or_mix.to_owned()), ..self }
+    }
+
+    /// All that is asked of formulas at once.
+    pub fn goal(self, goal: Goal) -> ProblemBuilder {
+        ProblemBuilder { goal, ..self }
+    }
+
+    /// What is made small, instead of the RMSE.
+    pub fn measure(mut self, measure: Measure) -> ProblemBuilder {
+        self.goal.measure = measure;
+        self
+    }
+
+    /// Cycles that a formula may cost, instead of 40.
+    pub fn max_cost(mut self, cycles: f64) -> ProblemBuilder {
+        self.goal.max_cost = cycles;
+        self
+    }
+
+    /// Checks all of it, and lays the samples out.
     ///
-    /// # Panics
-    /// If the dataset is not valid.
-    pub fn new(
-        dataset: &'a Dataset,
-        grammar: &'a Grammar,
-        profile: &'a Profile,
-        settings: &Settings,
-    ) -> Problem<'a> {
+    /// # Errors
+    /// [`SetupError`]: a dataset, grammar, profile or goal that breaks its own rules; a goal that the
+    /// dataset lacks the columns or weights for.
+    pub fn build(self) -> Result<Problem, SetupError> {
+        let ProblemBuilder { dataset, grammar, profile, goal } = self;
+        dataset.validate()?;
+        let grammar = grammar.or_else(|name| Grammar::find(&name).map(Arc::new))?;
+        let profile = profile.or_else(|name| Profile::find(&name).map(Arc::new))?;
+        grammar.check()?;
         let inputs = dataset.inputs.len();
-        let measure = settings.measure;
-        let scales = Some(Scales::of(dataset)).filter(|scales| !scales.are_natural());
-        let searched = match &scales {
-            Some(scales) => Cow::Owned(scales.scaled(dataset)),
-            None => Cow::Borrowed(dataset),
-        };
-        let mut rows = spread_rows(dataset.search.rows(), settings.subset);
-        if measure == Measure::Max {
-            let edges = edge_rows(&searched.search, inputs);
-            let chosen = spread_rows(edges.len(), settings.subset);
-            rows.extend(chosen.into_iter().map(|place| edges[place as usize]));
-            rows.sort_unstable();
-            rows.dedup();
+        goal.check(inputs, dataset.outputs.len()).map_err(SetupError::Goal)?;
+        if goal.measure == Measure::Weighted && dataset.search.weights.is_empty() {
+            return Err(SetupError::Goal(
+                "`measure` is weighted, but the data has no weights".into(),
+            ));
         }
-        let checks = Checks::new(&settings.requirements, dataset);
+        let scales = Some(Scales::of(&dataset)).filter(|scales| !scales.are_natural());
+        let searched = match &scales {
+            Some(scales) => Arc::new(scales.scaled(&dataset)),
+            None => Arc::clone(&dataset),
+        };
+        let checks = Checks::new(&goal.requirements, &dataset);
         let units = output_units(&dataset.outputs);
         let searched_units = output_units(&searched.outputs);
-        let plain = measure.all_samples(&searched.search, inputs, &searched_units);
+        let plain = goal.measure.all_samples(&searched.search, inputs, &searched_units);
         let all_rows: Vec<u32> = (0..dataset.search.rows() as u32).collect();
-        let all = checks.samples(&searched, measure, &all_rows);
-        let subset = checks.samples(&searched, measure, &rows);
-        Problem {
+        let all = checks.samples(&searched, goal.measure, &all_rows);
+        Ok(Problem {
+            constant_loss: constant_loss(&plain, goal.measure),
+            without_ends: (all.rows() > plain.rows()).then_some(plain),
+            unit: if goal.measure == Measure::Relative { 1.0 } else { joint_unit(&units) },
             dataset,
             searched,
             scales,
             grammar,
             profile,
-            measure,
-            transforms: settings.transforms.clone(),
-            subset,
-            constant_loss: constant_loss(&plain, measure),
-            without_ends: (all.rows() > plain.rows()).then_some(plain),
-            all,
+            goal,
             checks,
-            unit: if measure == Measure::Relative { 1.0 } else { joint_unit(&units) },
+            all,
+        })
+    }
+}
+
+impl Problem {
+    /// A problem of this dataset, to be built: by default with the grammar `shader`, on `gcn`, the least
+    /// RMSE at up to 40 cycles.
+    pub fn of(dataset: impl Into<Arc<Dataset>>) -> ProblemBuilder {
+        ProblemBuilder {
+            dataset: dataset.into(),
+            grammar: Err(USUAL_GRAMMAR.to_owned()),
+            profile: Err(USUAL_GPU.to_owned()),
+            goal: Goal::default(),
         }
+    }
+
+    pub fn dataset(&self) -> &Arc<Dataset> {
+        &self.dataset
+    }
+
+    pub fn grammar(&self) -> &Arc<Grammar> {
+        &self.grammar
+    }
+
+    pub fn profile(&self) -> &Arc<Profile> {
+        &self.profile
+    }
+
+    pub fn goal(&self) -> &Goal {
+        &self.goal
+    }
+
+    /// A subset of so many samples for candidates to race on; where the maximum error is to be small, and of as
+    /// many at the ends of the inputs.
+    pub(super) fn race(&self, subset: usize) -> Samples {
+        let mut rows = spread_rows(self.dataset.search.rows(), subset);
+        if self.goal.measure == Measure::Max {
+            let edges = edge_rows(&self.searched.search, self.dataset.inputs.len());
+            let chosen = spread_rows(edges.len(), subset);
+            rows.extend(chosen.into_iter().map(|place| edges[place as usize]));
+            rows.sort_unstable();
+            rows.dedup();
+        }
+        self.checks.samples(&self.searched, self.goal.measure, &rows)
     }
 
     /// All samples, weighing as they do in a measure.
     pub(super) fn all_in(&self, measure: Measure) -> Samples {
-        if measure == self.measure {
+        if measure == self.goal.measure {
             return self.all.clone();
         }
         let rows: Vec<u32> = (0..self.dataset.search.rows() as u32).collect();
@@ -99,7 +199,7 @@ impl<'a> Problem<'a> {
     /// The same over the dataset's columns.
     pub(super) fn all_as_given(&self, measure: Measure) -> Samples {
         let rows: Vec<u32> = (0..self.dataset.search.rows() as u32).collect();
-        self.checks.samples(self.dataset, measure, &rows)
+        self.checks.samples(&self.dataset, measure, &rows)
     }
 
     /// The error over all outputs that a loss stands for, as [`super::FrontMember::search_error`] shows it.
@@ -117,7 +217,7 @@ impl<'a> Problem<'a> {
         let Some(samples) = &self.without_ends else { return fitted };
         let Ok(program) = Program::verify(draft.clone()) else { return f64::INFINITY };
         let loss = evaluator.loss(&Tape::new(&program), samples, f64::INFINITY);
-        match self.measure {
+        match self.goal.measure {
             Measure::Max => {
                 let largest = |output: usize| {
                     f64::from(loss.max_error[output]).powi(2)
@@ -131,7 +231,7 @@ impl<'a> Problem<'a> {
 
     /// The outputs that are searched for through a function of them.
     pub(super) fn transforms(&self) -> impl Iterator<Item = (usize, Transform)> + '_ {
-        let each = self.transforms.iter().enumerate();
+        let each = self.goal.transforms.iter().enumerate();
         each.filter_map(|(output, transform)| Some((output, (*transform)?)))
     }
 
@@ -174,11 +274,6 @@ impl<'a> Problem<'a> {
     /// What turns a sum of squares over all samples and outputs into a mean.
     pub(super) fn scale(&self) -> f64 {
         1.0 / self.all.total_weight()
-    }
-
-    /// The same for the subset.
-    pub(super) fn subset_scale(&self) -> f64 {
-        1.0 / self.subset.total_weight()
     }
 }
 

@@ -402,7 +402,7 @@ fn both_splits(dataset: &Dataset) -> Split {
     }
 }
 
-impl Problem<'_> {
+impl Problem {
     /// Whether a formula is built as required, and as the grammar allows.
     pub(super) fn admits(&self, draft: &Draft) -> bool {
         self.checks.admits(draft)
@@ -422,7 +422,7 @@ impl Problem<'_> {
 
     /// [`Checks::clamped`] of a draft of the search.
     pub(super) fn clamped(&self, draft: &Draft) -> Option<Draft> {
-        let clamped = self.checks.clamped(&self.natural(draft), self.grammar)?;
+        let clamped = self.checks.clamped(&self.natural(draft), &self.grammar)?;
         Some(self.over_searched(&clamped))
     }
 
@@ -433,7 +433,7 @@ impl Problem<'_> {
             && self.grammar.allows_nesting(program)
             && self.ends_are_kept(program)
             && self.checks.hold(program, &mut Evaluator::default())
-            && self.checks.stand(program, self.dataset)
+            && self.checks.stand(program, &self.dataset)
     }
 
     /// Whether transformed outputs still end in the inverse; where columns are scaled, a factor may follow it.
@@ -444,6 +444,6 @@ impl Problem<'_> {
 
     /// What is asked of each formula that is shown.
     pub fn questions(&self) -> Questions {
-        self.checks.questions(self.dataset)
+        self.checks.questions(&self.dataset)
     }
 }

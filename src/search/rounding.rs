@@ -43,7 +43,7 @@ pub(super) struct Rounding {
 
 impl Rounding {
     pub fn of(problem: &Problem) -> Rounding {
-        let dataset = problem.dataset;
+        let dataset = &problem.dataset;
         let errors = [&dataset.search, &dataset.validation].map(|split| {
             let outputs = 0..dataset.outputs.len();
             outputs.map(|output| rounding_errors(split, dataset.inputs.len(), output)).collect()

@@ -3,8 +3,8 @@
 use lgp::num::Interval;
 use lgp::op::Op;
 use lgp::program::{Arg, Draft, Names, Program, parse};
-use lgp::report::examination;
 use lgp::stability::{Bound, Claim, Examination, Limits, Questions, Rounding, Status, prove};
+use lgp::wording::examination;
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 

@@ -1,13 +1,12 @@
 //! Several runs beside each other.
 
-use super::content;
 use crate::cli::run_folder::{self, Which};
-use crate::cli::{Exit, Failure, output};
+use crate::cli::{Failure, output};
 use crate::dataset::replace_file;
 use crate::fit::Measure;
 use crate::report::page::{self, ComparedRun, Comparison, Group};
-use crate::report::table::axis_title;
-use crate::search::{Run, TRACE_COSTS};
+use crate::run::{Run, TRACE_COSTS, load_trace};
+use crate::wording::axis_title;
 use std::path::{Path, PathBuf};
 
 /// Gives the bytes of the page.
@@ -25,7 +24,7 @@ pub(super) fn write(folders: &[PathBuf], path: &Path) -> Result<usize, Failure> 
             seconds: run.seconds,
             considered: run.counts.considered,
             front: members.collect(),
-            trace: content::trace(folder, &run)?.filter(|trace| !trace.seconds.is_empty()),
+            trace: load_trace(folder, &run)?.filter(|trace| !trace.seconds.is_empty()),
         };
         runs.push((run, compared));
     }
@@ -42,7 +41,7 @@ pub(super) fn write(folders: &[PathBuf], path: &Path) -> Result<usize, Failure> 
         gpu: first.gpu.clone(),
         costs: TRACE_COSTS.to_vec(),
         measures: measures(&first).into_iter().map(axis_title).collect(),
-        same_budget: runs.iter().all(|(run, _)| run.settings.max_cost == first.settings.max_cost),
+        same_budget: runs.iter().all(|(run, _)| run.goal.max_cost == first.goal.max_cost),
         groups: groups(runs),
     };
     let html = page::comparison(&comparison);
@@ -52,7 +51,7 @@ pub(super) fn write(folders: &[PathBuf], path: &Path) -> Result<usize, Failure> 
 
 /// What the run made small, and the usual measures.
 fn measures(run: &Run) -> Vec<Measure> {
-    let own = run.settings.measure;
+    let own = run.goal.measure;
     let usual = [Measure::Rmse, Measure::Max].into_iter().filter(|one| *one != own);
     [own].into_iter().chain(usual).collect()
 }
@@ -69,16 +68,13 @@ fn check_comparable(
             ("scene", run.scene == first.scene),
             ("outputs", run.outputs == first.outputs),
             ("GPU profile", run.has_profile_of(first)),
-            ("error measure", run.settings.measure == first.settings.measure),
+            ("error measure", run.goal.measure == first.goal.measure),
         ];
         if let Some((what, _)) = what.iter().find(|(_, same)| !same) {
             let (folder, first) = (folder.display(), folders[0].display());
-            return Err(Failure::new(
-                Exit::Input,
-                anyhow::anyhow!(
-                    "{folder}: of another {what} than {first}; compare runs of one search problem"
-                ),
-            ));
+            return Err(Failure::input(format!(
+                "{folder}: of another {what} than {first}; compare runs of one search problem"
+            )));
         }
     }
     Ok(())
@@ -106,20 +102,20 @@ fn groups(runs: Vec<(Run, ComparedRun)>) -> Vec<Group> {
 
 /// What decides how a run goes, but for its seed.
 fn traits(run: &Run) -> Vec<(&'static str, String)> {
-    let settings = &run.settings;
+    let (goal, method) = (&run.goal, &run.method);
     let inputs: Vec<&str> = run.inputs.iter().map(|input| input.name.as_str()).collect();
     let enumerated = run.enumeration.map_or(0.0, |enumeration| enumeration.cost);
     vec![
         ("grammar", run.grammar.clone()),
         ("inputs", inputs.join(" ")),
-        ("max. cycles", settings.max_cost.to_string()),
-        ("islands", settings.islands.to_string()),
-        ("candidates", settings.candidates.to_string()),
-        ("bucket", settings.bucket_size.to_string()),
+        ("max. cycles", goal.max_cost.to_string()),
+        ("islands", method.islands.to_string()),
+        ("candidates", method.candidates.to_string()),
+        ("bucket", method.bucket_size.to_string()),
         ("exhaustive", enumerated.to_string()),
-        ("random share", settings.immigrants.to_string()),
+        ("random share", method.immigrants.to_string()),
         ("requirements", run.requirements()),
-        ("transforms", format!("{:?}", settings.transforms)),
+        ("transforms", format!("{:?}", goal.transforms)),
         ("searches merged", run.sources.len().to_string()),
         ("lgp", run.version.clone()),
     ]

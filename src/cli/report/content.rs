@@ -2,27 +2,27 @@
 
 use super::Gathered;
 use super::timing::{self, Timing};
-use crate::cli::{Failure, run_folder};
+use crate::cli::Failure;
 use crate::cost::Profile;
 use crate::dataset::Dataset;
 use crate::emit::{self, Language, Snippet};
 use crate::eval::OutputError;
 use crate::fit::Measure;
-use crate::report::page::{self, Axis, Code, Formula, Page, PageFront, PageSpheres, Table, Trace};
-use crate::report::table::{Published, axis_title, cut};
-use crate::search::{Front, FrontMember, RecordError, Run, TRACE, load_text};
+use crate::report::page::{self, Axis, Code, Formula, Page, PageFront, PageSpheres, Table};
+use crate::run::{self, Run};
+use crate::search::{Front, FrontMember, Published};
+use crate::wording::{axis_title, cut};
 use std::path::Path;
 
-/// The page, and the trace that it shows.
-pub(super) fn page(gathered: &Gathered, folder: &Path) -> Result<(Page, Option<Trace>), Failure> {
-    let Gathered { run, front, minimax, dataset, published } = gathered;
+/// The page.
+pub(super) fn page(gathered: &Gathered, folder: &Path) -> Result<Page, Failure> {
+    let Gathered { run, front, minimax, dataset, published, trace } = gathered;
     let (profiles, own) = profiles(run)?;
     let timings = timing::load(folder)?;
     let priced = Priced { run, profiles: &profiles, timings: &timings };
     let names = run.names();
     let outputs = names.outputs.len();
-    let trace = trace(folder, run)?;
-    let page = Page {
+    Ok(Page {
         title: format!("{}: {}", run.name, names.outputs.join(", ")),
         facts: facts(run, dataset.as_ref()),
         command: run.command.iter().map(|word| quoted(word)).collect::<Vec<_>>().join(" "),
@@ -43,8 +43,7 @@ pub(super) fn page(gathered: &Gathered, folder: &Path) -> Result<(Page, Option<T
         trace: trace.clone(),
         spheres: dataset.as_ref().and_then(PageSpheres::of),
         languages: Language::ALL.iter().map(|language| language.name()).collect(),
-    };
-    Ok((page, trace))
+    })
 }
 
 /// The GPUs that come with the program and that of the run, and its place among them.
@@ -98,7 +97,7 @@ impl Priced<'_> {
     }
 
     fn member(&self, member: &FrontMember) -> Formula {
-        let text = |&language: &Language| run_folder::snippet(self.run, member, language);
+        let text = |&language: &Language| run::snippet(self.run, member, language);
         let texts: Vec<String> = Language::ALL.iter().map(text).collect();
         // The comment lines that all languages have, after the first language's.
         let header: Vec<String> = texts[0]
@@ -131,7 +130,7 @@ impl Priced<'_> {
         let snippet = Snippet { program, names: &names, function: &self.run.name, header: &[] };
         let costs: Vec<_> = self.profiles.iter().map(|profile| profile.cost(program)).collect();
         let measured = self.timings.iter().map(|timing| timing.of(&member.formula));
-        let of = self.run.settings.measure;
+        let of = self.run.goal.measure;
         let errors = |error: &OutputError| [error.rmse, error.max, error.of(of)];
         Formula {
             name: None,
@@ -150,13 +149,6 @@ impl Priced<'_> {
     }
 }
 
-/// How the search went on, if that was recorded.
-pub(super) fn trace(folder: &Path, run: &Run) -> Result<Option<Trace>, Failure> {
-    let Some(text) = load_text(folder, run, TRACE)? else { return Ok(None) };
-    let damaged = |(line, reason)| RecordError::Damaged { path: folder.join(TRACE), line, reason };
-    Ok(Some(Trace::parse(&text).map_err(damaged)?))
-}
-
 fn facts(run: &Run, dataset: Option<&Dataset>) -> Vec<(String, String)> {
     let mut facts =
         vec![("dataset".to_owned(), format!("{}, hash {}", run.name, run.dataset_hash))];
@@ -169,10 +161,10 @@ fn facts(run: &Run, dataset: Option<&Dataset>) -> Vec<(String, String)> {
     if let Some(scene) = &run.scene {
         fact("scene", format!("{}: {}", scene.name, scene.summary()));
     }
-    fact("domain", run_folder::domains(&run.inputs));
+    fact("domain", run::domains(&run.inputs));
     fact("grammar, GPU", format!("{}, {}", run.grammar, run.gpu));
-    fact("seed", run_folder::seeds(run));
-    fact("error made small", run.settings.measure.to_string());
+    fact("seed", run::seeds(run));
+    fact("error made small", run.goal.measure.to_string());
     fact("search", format!("{} generations in {:.1} s", run.generations, run.seconds));
     let counts = [run.counts.considered, run.counts.seen, run.counts.fitted, run.counts.admitted];
     fact(

@@ -5,14 +5,15 @@ mod content;
 mod pictures;
 mod timing;
 
+pub(super) use pictures::write_plots;
+
 use super::run_folder::{self, Which};
-use super::subject::Subject;
-use super::{Common, Exit, Failure};
+use super::{Common, Failure};
 use crate::dataset::{Dataset, replace_file};
 use crate::deadline::Deadline;
 use crate::report::page;
-use crate::report::table::Published;
-use crate::search::{Front, Run, RunFolder};
+use crate::run::{Folder, Outcome, Run, Subject, Trace, load_trace};
+use crate::search::{Front, Published};
 use crate::stability::Questions;
 use serde::Serialize;
 use std::path::{Path, PathBuf};
@@ -47,14 +48,16 @@ struct Written {
     bytes: usize,
 }
 
-/// A run's folder, read.
-struct Gathered {
+/// What a report is made of: a search that has just ended, or a run's folder, read.
+pub(super) struct Gathered {
     run: Run,
     front: Front,
     minimax: Front,
     /// The run's columns, if the data are still what they were.
     dataset: Option<Dataset>,
     published: Vec<Published>,
+    /// How the search went on, if that was recorded.
+    trace: Option<Trace>,
 }
 
 pub fn run(args: &Args, common: &Common) -> Result<(), Failure> {
@@ -68,7 +71,7 @@ pub fn run(args: &Args, common: &Common) -> Result<(), Failure> {
         [folder] => {
             let mut gathered = gather(folder, args.dataset.as_deref(), common)?;
             gathered.judge();
-            let _owned = RunFolder::claim(folder)?;
+            let _owned = Folder::claim(folder)?;
             if args.measure {
                 timing::measure(&gathered, folder)?;
             }
@@ -87,10 +90,15 @@ pub fn run(args: &Args, common: &Common) -> Result<(), Failure> {
     common.summary(&Written { page, bytes }, &text)
 }
 
-/// Writes the page and the pictures of a run's folder, its verdicts as they are; past the deadline no
+/// Writes the page and the pictures of a run into its folder, its verdicts as they are; past the deadline no
 /// more pictures.
-pub(super) fn write(folder: &Path, common: &Common, deadline: &Deadline) -> Result<(), Failure> {
-    let (_, whole) = write_all(&gather(folder, None, common)?, folder, deadline)?;
+pub(super) fn write(
+    gathered: &Gathered,
+    folder: &Path,
+    common: &Common,
+    deadline: &Deadline,
+) -> Result<(), Failure> {
+    let (_, whole) = write_all(gathered, folder, deadline)?;
     if !whole && !common.quiet {
         let folder = folder.display();
         eprintln!("there was no time for all pictures; `lgp report {folder}` makes them");
@@ -99,6 +107,12 @@ pub(super) fn write(folder: &Path, common: &Common, deadline: &Deadline) -> Resu
 }
 
 impl Gathered {
+    pub(super) fn of(outcome: &Outcome, dataset: Dataset, published: Vec<Published>) -> Gathered {
+        let Outcome { run, front, minimax, trace, .. } = outcome.clone();
+        let trace = Some(Trace::parse(&trace).expect("as it was just written"));
+        Gathered { run, front, minimax, dataset: Some(dataset), published, trace }
+    }
+
     /// As `lgp emit` does, so that its code and the page's are the same.
     fn judge(&mut self) {
         let questions = Questions::of(&self.run.inputs, &self.run.outputs);
@@ -114,9 +128,8 @@ fn write_all(
     folder: &Path,
     deadline: &Deadline,
 ) -> Result<(usize, bool), Failure> {
-    let (page, trace) = content::page(gathered, folder)?;
-    let html = page::html(&page);
-    let whole = pictures::write(gathered, trace.as_ref(), folder, deadline)?;
+    let html = page::html(&content::page(gathered, folder)?);
+    let whole = pictures::write(gathered, folder, deadline)?;
     write_file(folder, FILE, html.as_bytes())?;
     Ok((html.len(), whole))
 }
@@ -139,7 +152,7 @@ fn gather(folder: &Path, elsewhere: Option<&Path>, common: &Common) -> Result<Ga
     let subject = match found {
         Ok(subject) => Some(subject),
         Err(problem) if elsewhere.is_some() => {
-            return Err(Failure::new(Exit::Input, anyhow::Error::msg(problem)));
+            return Err(problem.into());
         }
         Err(problem) => {
             common.note(&format!(
@@ -150,5 +163,6 @@ fn gather(folder: &Path, elsewhere: Option<&Path>, common: &Common) -> Result<Ga
     };
     let published = subject.as_ref().and_then(|subject| subject.published_for(&run));
     let dataset = subject.map(|subject| subject.dataset);
-    Ok(Gathered { run, front, minimax, dataset, published: published.unwrap_or_default() })
+    let trace = load_trace(folder, &run)?;
+    Ok(Gathered { run, front, minimax, dataset, published: published.unwrap_or_default(), trace })
 }

@@ -2,32 +2,31 @@
 
 use super::{Gathered, write_file};
 use crate::cli::render::{Drawing, ROUGHNESSES, SIZE};
-use crate::cli::{Exit, Failure, run_folder};
+use crate::cli::{Exit, Failure};
 use crate::dataset::Dataset;
 use crate::deadline::Deadline;
 use crate::eval::{Evaluator, Samples, Tape};
 use crate::program::Program;
 use crate::report::maps::{self, Maps, OutputMaps, Plane};
-use crate::report::page::Trace;
-use crate::report::plot::{self, Line, LinePlot, PlotError, Theme};
+use crate::report::plot::{self, FrontPlot, Line, LinePlot, PlotError, Theme};
 use crate::report::spheres::{Environment, View};
-use crate::report::table::{Published, axis_title, cycles_text, error_text};
-use crate::search::FrontMember;
+use crate::run::{self, Run, Trace};
+use crate::search::{Front, FrontMember, Published};
+use crate::wording::{axis_title, cycles_text, error_text};
 use std::path::Path;
 
-/// Pixels.
+/// Pixels: what a README shows, at twice the density.
 const WIDTH: u32 = 1600;
 
 /// Says whether there was time for all.
 pub(super) fn write(
     gathered: &Gathered,
-    trace: Option<&Trace>,
     folder: &Path,
     deadline: &Deadline,
 ) -> Result<bool, Failure> {
-    let Gathered { run, front, dataset, published, .. } = gathered;
-    run_folder::write_plots(folder, run, front, published)?;
-    let shown = trace.filter(|trace| trace.seconds.len() > 1 && !deadline.is_past());
+    let Gathered { run, front, dataset, published, trace, .. } = gathered;
+    write_plots(folder, run, front, published)?;
+    let shown = trace.as_ref().filter(|trace| trace.seconds.len() > 1 && !deadline.is_past());
     if let Some(trace) = shown {
         write_convergence(gathered, trace, folder)?;
     }
@@ -59,6 +58,37 @@ pub(super) fn write(
     Ok(true)
 }
 
+/// The front as a picture, in its measure.
+pub fn write_plots(
+    folder: &Path,
+    run: &Run,
+    front: &Front,
+    incumbents: &[Published],
+) -> Result<(), Failure> {
+    let measure = front.measure;
+    let error = |member: &FrontMember| member.search_error().of(measure);
+    let point = |member: &FrontMember| (member.cost, error(member));
+    let front: Vec<_> = front.members.iter().map(point).collect();
+    let incumbents: Vec<_> = incumbents
+        .iter()
+        .map(|known| (known.name.clone(), known.member.cost, error(&known.member)))
+        .collect();
+    let names = run.names();
+    let plot = FrontPlot {
+        title: &format!("{}: {}", run.name, names.outputs.join(", ")),
+        subtitle: &format!("{} · {}", run::domains(&run.inputs), run::seeds(run)),
+        x_label: &format!("GPU cycles ({})", run.gpu),
+        y_label: &format!("{} on the search split", axis_title(measure)),
+        front: &front,
+        incumbents: &incumbents,
+        theme: Theme::Light,
+    };
+    write_file(folder, "front.svg", plot::svg(&plot).map_err(failed)?.as_bytes())?;
+    write_file(folder, "front.png", &plot::png(&plot, WIDTH).map_err(failed)?)?;
+    let dark = FrontPlot { theme: Theme::Dark, ..plot };
+    write_file(folder, "front-dark.svg", plot::svg(&dark).map_err(failed)?.as_bytes())
+}
+
 fn failed(error: PlotError) -> Failure {
     Failure::new(Exit::Failed, error)
 }
@@ -73,10 +103,10 @@ fn write_convergence(gathered: &Gathered, trace: &Trace, folder: &Path) -> Resul
     let every = trace.costs.len().div_ceil(7).max(1);
     let lines: Vec<Line> = trace.costs.iter().zip(&trace.errors).step_by(every).map(line).collect();
     let run = &gathered.run;
-    let measure = run.settings.measure;
+    let measure = run.goal.measure;
     let plot = LinePlot {
         title: &format!("{}: how the search went on", run.name),
-        subtitle: &format!("{} · {}", run_folder::seeds(run), run.machine),
+        subtitle: &format!("{} · {}", run::seeds(run), run.machine),
         x_label: "seconds",
         y_label: &format!("{} on the search split, before polishing", axis_title(measure)),
         lines: &lines,

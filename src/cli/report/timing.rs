@@ -2,11 +2,11 @@
 //! of what is kept, so that it stays the same.
 
 use super::{Gathered, write_file};
-use crate::cli::{Exit, Failure};
+use crate::cli::Failure;
 use crate::dataset::{LARGEST_TEXT, read_text};
 use crate::eval::{Evaluator, Isa, Samples, Tape};
 use crate::program::Program;
-use crate::search::RecordError;
+use crate::run::RecordError;
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 use std::path::Path;
@@ -38,7 +38,7 @@ pub(super) fn measure(gathered: &Gathered, folder: &Path) -> Result<(), Failure>
     let Some(dataset) = &gathered.dataset else {
         let message =
             "--measure evaluates on the dataset, which is not there; --dataset says where";
-        return Err(Failure::new(Exit::Input, anyhow::Error::msg(message)));
+        return Err(Failure::input(message));
     };
     let samples = Samples::new(&dataset.search, dataset.inputs.len());
     let mut evaluator = Evaluator::default();

@@ -1,7 +1,8 @@
 //! Runs of one dataset beside each other.
 
-use super::{Trace, own, rendered, within_script};
+use super::{own, rendered, within_script};
 use crate::printable::printable;
+use crate::run::Trace;
 use minijinja::{Value, context};
 use serde::Serialize;
 

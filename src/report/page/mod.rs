@@ -9,18 +9,17 @@ mod lookup;
 mod policy;
 mod samples;
 mod spheres;
-mod trace;
 
 pub use compare::{ComparedRun, Comparison, Group, comparison};
 pub use lookup::{LookupTable, lookup_tables};
 pub use samples::Table;
 pub use spheres::PageSpheres;
-pub use trace::Trace;
 
 use policy::own;
 
 use crate::dataset::Column;
 use crate::printable::{is_hidden, printable, printable_lines};
+use crate::run::Trace;
 use minijinja::{Environment, Value, context};
 use serde::Serialize;
 

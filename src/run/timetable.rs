@@ -1,8 +1,7 @@
 //! How the time of a run is shared between the search and what follows it.
 
-use super::finish::Rehearsal;
-use super::{Problem, Search};
 use crate::deadline::{Deadline, Stop};
+use crate::search::{Rehearsal, Search};
 use std::time::{Duration, Instant};
 
 /// Seconds since a run began at which its phases end. Nothing is known at first of what polishing and verdicts
@@ -101,13 +100,13 @@ impl Timetable {
     }
 
     /// Finds out, now and then, what finishing will take.
-    pub fn rehearse(&mut self, search: &Search, problem: &Problem) {
+    pub fn rehearse(&mut self, search: &Search) {
         let seconds = self.seconds();
         let Some(shares) = &mut self.shares else { return };
         let due = REHEARSALS.get(self.rehearsals).is_some_and(|due| seconds >= due * shares.total);
         if due {
             let most = Duration::from_secs_f64(A_REHEARSAL * shares.total);
-            shares.rehearsal = Rehearsal::of(search, problem, &self.search.within(most));
+            shares.rehearsal = Rehearsal::of(search, &self.search.within(most));
             self.rehearsals += 1;
         }
     }

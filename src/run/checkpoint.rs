@@ -1,59 +1,62 @@
 //! `checkpoint.bin`: all that a search goes on with, in one file, so that no two of its parts can be of
 //! different moments.
 //!
-//! A line of text says which program wrote it, as `LGPSTATE5 lgp 0.1.0`; then come the parts, in
+//! A line of text says which program wrote it, as `LGPSTATE6 lgp 0.1.0`; then come the parts, in
 //! postcard's encoding, and a checksum over all before it. The encoding does not describe itself, and
 //! random streams and rules of a search may change from version to version: a checkpoint is read by the
 //! version that wrote it, and by [`LAYOUT`] alone.
 
 use super::folder::read_bytes;
-use super::{Census, RecordError, Run, Search};
+use super::{Census, RecordError, Run};
 use crate::dataset::Dataset;
+use crate::search::State;
 use serde::{Deserialize, Serialize};
 use std::path::Path;
 
 /// To be raised whenever what is serialised of a search changes: `tests/checkpoint.rs` tells.
-const LAYOUT: u32 = 5;
+const LAYOUT: u32 = 6;
 
 const MAGIC: &str = "LGPSTATE";
 
 /// The most bytes that are read.
 const MOST_BYTES: u64 = 2 << 30;
 
-/// A search, and what is known of its run so far.
+/// How far a search came, and what is known of its run so far.
 #[derive(Clone, Debug)]
 pub struct Checkpoint {
     pub run: Run,
-    pub search: Search,
+    pub state: State,
     /// The text of `trace.csv` so far.
     pub trace: String,
     pub census: Census,
 }
 
-/// What follows the line of text.
-#[derive(Serialize, Deserialize)]
-struct Body {
-    /// As RON, which leaves out and fills in fields.
-    run: String,
-    trace: String,
-    census: Census,
-    search: Search,
-}
+/// What follows the line of text: the run as RON, which leaves out and fills in fields, and the others.
+#[derive(Serialize)]
+struct Written<'a>(&'a str, &'a str, &'a Census, &'a State);
+
+#[derive(Deserialize)]
+struct Read(String, String, Census, State);
 
 fn first_line() -> String {
     format!("{MAGIC}{LAYOUT} lgp {}\n", env!("CARGO_PKG_VERSION"))
 }
 
 impl Checkpoint {
-    /// The content of `checkpoint.bin`.
-    pub fn to_bytes(&self) -> Vec<u8> {
-        let Checkpoint { run, search, trace, census } = self.clone();
-        let body = Body { run: run.to_ron(), trace, census: census.pruned(), search };
+    /// The content of `checkpoint.bin`; `trace` is the text of `trace.csv`.
+    pub fn bytes(run: &Run, state: &State, trace: &str, census: &Census) -> Vec<u8> {
         let mut bytes = first_line().into_bytes();
+        let body = Written(&run.to_ron(), trace, &census.clone().pruned(), state);
         bytes.extend(postcard::to_allocvec(&body).expect("plain data"));
         let checksum = blake3::hash(&bytes);
         bytes.extend(checksum.as_bytes());
         bytes
+    }
+
+    /// The same of what was read.
+    pub fn to_bytes(&self) -> Vec<u8> {
+        let Checkpoint { run, state, trace, census } = self;
+        Checkpoint::bytes(run, state, trace, census)
     }
 
     /// Reads the content of a `checkpoint.bin` at `path`, and checks all of it.
@@ -80,21 +83,20 @@ impl Checkpoint {
                 first_line().trim_end()
             )));
         };
-        let (body, rest): (Body, &[u8]) =
+        let (Read(run, trace, census, state), rest) =
             postcard::take_from_bytes(body).map_err(|error| refuse(error.to_string()))?;
-        let Body { run, trace, census, search } = body;
         let checked = || -> Result<Run, String> {
             let run = Run::from_ron(&run).map_err(|(_, reason)| format!("its run: {reason}"))?;
-            if !rest.is_empty() || &run.settings != search.settings() {
-                return Err("its parts do not go together".into());
+            if !rest.is_empty() {
+                return Err("there is more than its parts".into());
             }
-            search.check(run.inputs.len(), run.outputs.len())?;
+            state.check(&run.goal, &run.method, run.inputs.len(), run.outputs.len())?;
             census.check(run.inputs.len())?;
             Ok(run)
         };
         let run =
             checked().map_err(|reason| refuse(format!("not what a search writes: {reason}")))?;
-        Ok(Checkpoint { run, search, trace, census })
+        Ok(Checkpoint { run, state, trace, census })
     }
 
     /// Reads `checkpoint.bin` of a run's folder.

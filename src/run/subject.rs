@@ -1,14 +1,25 @@
-//! What a command works on: a dataset, or what a scene and a choice of columns leave of it.
+//! What is worked on: a dataset, or what a scene and a choice of columns leave of it.
 
-use super::{Failure, columns::Columns};
+use super::Run;
 use crate::cost::Profile;
-use crate::dataset::{Comparable, Dataset, incumbents_for, load_incumbents};
-use crate::report::table::Published;
-use crate::scene::Scene;
-use crate::search::{FrontMember, Run};
+use crate::dataset::{self, Comparable, Dataset, incumbents_for, load_incumbents};
+use crate::scene::{self, Scene};
+use crate::search::{FrontMember, Published};
 use std::path::{Path, PathBuf};
 
-/// A dataset as a command takes it.
+/// A dataset that cannot be worked on.
+#[derive(Debug, thiserror::Error)]
+pub enum SubjectError {
+    #[error(transparent)]
+    Dataset(#[from] dataset::Error),
+    #[error(transparent)]
+    Scene(#[from] scene::Error),
+    #[error("{path}: not the data that the run was made with, by its hash", path = path.display())]
+    OtherData { path: PathBuf },
+}
+
+/// A dataset as it is worked on.
+#[derive(Clone, Debug)]
 pub struct Subject {
     /// As its file has it.
     pub whole: Dataset,
@@ -17,19 +28,26 @@ pub struct Subject {
 }
 
 impl Subject {
-    /// Loads a dataset, and chooses what is needed of it.
-    pub fn load(path: &Path, scene: Option<&str>, columns: &Columns) -> Result<Subject, Failure> {
+    /// Loads a dataset, and chooses what is needed of it: a scene by name, and columns.
+    ///
+    /// # Errors
+    /// [`SubjectError`].
+    pub fn load(
+        path: &Path,
+        scene: Option<&str>,
+        choose: impl FnOnce(&Dataset) -> Result<Dataset, dataset::Error>,
+    ) -> Result<Subject, SubjectError> {
         let whole = Dataset::load(path)?;
         let scene = scene.map(|name| Scene::find(name, path)).transpose()?;
-        Subject::new(whole, scene, |dataset| columns.of(dataset))
+        Subject::new(whole, scene, choose)
     }
 
     /// What a scene, if any, and then a choice leave of a dataset.
     pub fn new(
         whole: Dataset,
         scene: Option<Scene>,
-        choose: impl FnOnce(&Dataset) -> Result<Dataset, Failure>,
-    ) -> Result<Subject, Failure> {
+        choose: impl FnOnce(&Dataset) -> Result<Dataset, dataset::Error>,
+    ) -> Result<Subject, SubjectError> {
         let dataset = match &scene {
             Some(scene) => choose(&scene.over(&whole)?.dataset()?)?,
             None => choose(&whole)?,
@@ -39,7 +57,7 @@ impl Subject {
 
     /// What a run was of, if that is still where the run found it, or as far from the run's folder as
     /// it was; if not, what is wrong. The run then says where it is.
-    pub fn of_run(run: &mut Run, folder: &Path) -> Result<Subject, String> {
+    pub fn of_run(run: &mut Run, folder: &Path) -> Result<Subject, SubjectError> {
         if let Some(path) = found(&run.dataset, folder) {
             run.dataset = path;
         }
@@ -47,16 +65,15 @@ impl Subject {
     }
 
     /// The same, of a dataset at a path.
-    pub fn of_run_at(run: &Run, path: &Path) -> Result<Subject, String> {
-        let whole = Dataset::load(path).map_err(|error| error.to_string())?;
+    pub fn of_run_at(run: &Run, path: &Path) -> Result<Subject, SubjectError> {
+        let whole = Dataset::load(path)?;
         if whole.hash() != run.dataset_hash {
-            let path = path.display();
-            return Err(format!("{path}: not the data that the run was made with, by its hash"));
+            return Err(SubjectError::OtherData { path: path.into() });
         }
         let names = run.names();
-        let choose =
-            |dataset: &Dataset| Ok(dataset.select(Some(&names.inputs), Some(&names.outputs))?);
-        Subject::new(whole, run.scene.clone(), choose).map_err(|failure| failure.error.to_string())
+        Subject::new(whole, run.scene.clone(), |dataset| {
+            dataset.select(Some(&names.inputs), Some(&names.outputs))
+        })
     }
 
     /// The incumbents beside a run's dataset, costed as the run does, if they can be read.
@@ -65,7 +82,11 @@ impl Subject {
     }
 
     /// The incumbents that define every output, scored.
-    pub fn published(&self, path: &Path, profile: &Profile) -> Result<Vec<Published>, Failure> {
+    pub fn published(
+        &self,
+        path: &Path,
+        profile: &Profile,
+    ) -> Result<Vec<Published>, SubjectError> {
         let names = self.dataset.names();
         let comparable = match &self.scene {
             Some(scene) => self.incumbents_in(scene, path)?,
@@ -82,7 +103,7 @@ impl Subject {
 
     /// The dataset's incumbents as the scene makes them, and those that were made for the scene:
     /// `incumbents/<dataset>_<scene>.ron` beside the dataset's file.
-    fn incumbents_in(&self, scene: &Scene, path: &Path) -> Result<Vec<Comparable>, Failure> {
+    fn incumbents_in(&self, scene: &Scene, path: &Path) -> Result<Vec<Comparable>, SubjectError> {
         let view = scene.over(&self.whole)?;
         let names = self.dataset.names();
         let mut found = Vec::new();

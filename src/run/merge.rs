@@ -1,10 +1,11 @@
 //! The union of runs: associative, commutative, idempotent, so that any scheduler can spread seeds
 //! over machines and put together what comes back, in any order.
 
-use super::{Front, Run};
+use super::Run;
 use crate::cost::Profile;
 use crate::fit::Measure;
 use crate::grammar::Grammar;
+use crate::search::Front;
 use std::collections::BTreeMap;
 
 /// Runs that have no union.
@@ -60,7 +61,7 @@ fn check(one: &Run, other: &Run) -> Result<(), Incompatible> {
         ("requirements", one.requirements(), other.requirements()),
         ("grammar", grammars[0].clone(), grammars[1].clone()),
         ("GPU profile", profiles[0].clone(), profiles[1].clone()),
-        ("error measure", one.settings.measure.to_string(), other.settings.measure.to_string()),
+        ("error measure", one.goal.measure.to_string(), other.goal.measure.to_string()),
     ];
     match differences.into_iter().find(|(_, one, other)| one != other) {
         None => Ok(()),
@@ -120,7 +121,7 @@ mod tests {
     use crate::eval::{OutputError, Score};
     use crate::program::{Names, parse};
     use crate::scene::Scene;
-    use crate::search::{Counts, FrontMember, Requirement, Settings};
+    use crate::search::{Counts, FrontMember, Method, Requirement};
     use crate::stability::VerdictRecord;
 
     fn run(seed: u64, members: &[(f64, f64, &str)]) -> (Run, Front) {
@@ -140,7 +141,7 @@ mod tests {
             outputs: vec![column("y")],
             grammar: "shader".into(),
             gpu: "gcn".into(),
-            settings: Settings { seed, ..Settings::default() },
+            method: Method { seed, ..Method::default() },
             machine: "m".into(),
             threads: 1,
             generations: seed,
@@ -194,7 +195,7 @@ mod tests {
         assert!(error.contains("GPU profile: gcn and rdna2"), "{error}");
         let mut b = run(2, &[]);
         let names = b.0.names();
-        b.0.settings.requirements = vec![Requirement::parse("y.range=0..1", &names).unwrap()];
+        b.0.goal.requirements = vec![Requirement::parse("y.range=0..1", &names).unwrap()];
         let error = merge(vec![a.clone(), b]).unwrap_err().to_string();
         assert!(error.contains("requirements: none and y.range=0..1"), "{error}");
         let mut b = run(2, &[]);

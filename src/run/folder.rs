@@ -20,9 +20,12 @@
 //! The lock is the operating system's, on an open file: it ends with the process, however that ends. What
 //! is left of the file then means nothing.
 
-use super::{Front, RecordError, Run};
+use super::{Outcome, RecordError, Run, Trace, snippet};
 use crate::dataset::{StagedFile, TEMPORARY, remove_file, replace_file};
+use crate::emit::Language;
 use crate::fit::Measure;
+use crate::search::Front;
+use std::ffi::OsStr;
 use std::fs::{File, TryLockError};
 use std::io::{Read, Write};
 use std::path::{Path, PathBuf};
@@ -36,10 +39,13 @@ pub const MINIMAX_FRONT: &str = "front-max.json";
 pub const TRACE: &str = "trace.csv";
 pub const CENSUS: &str = "census.json";
 const LOCK: &str = "lock";
+const SNIPPETS: &str = "snippets";
+/// The front as a table.
+pub const FRONT_TABLE: &str = "front.txt";
 
 /// What the page and pictures of a run are called.
 const MADE_OF_IT: [&str; 11] = [
-    "front.txt",
+    FRONT_TABLE,
     "front.svg",
     "front-dark.svg",
     "front.png",
@@ -77,30 +83,55 @@ impl Holding {
     }
 }
 
-/// A file of a folder that holds no run, called as a run's files are, and so in the way of one. `snippets`
-/// are the files there that are called as a run's.
-pub fn in_the_way(folder: &Path, snippets: &[String]) -> Option<String> {
+/// A file of a folder that holds no run, called as a run's files are, and so in the way of one.
+pub fn in_the_way(folder: &Path) -> Option<String> {
     let names = MADE_OF_IT.into_iter().chain(IDENTIFIED);
     let mut there = names.filter(|file| folder.join(file).exists()).map(str::to_owned);
-    there.next().or_else(|| snippets.first().cloned())
+    there.next().or_else(|| snippets_in(folder).into_iter().next())
 }
 
 /// A run's folder that this process alone may write to.
 #[derive(Debug)]
-pub struct RunFolder {
+pub struct Folder {
     path: PathBuf,
     _lock: Lock,
 }
 
-impl RunFolder {
+impl Outcome {
+    /// Its files, by name, but for `run.ron`.
+    pub(super) fn files(&self) -> Vec<(String, Vec<u8>)> {
+        let mut files = front_files(&self.run, &self.front, &self.minimax);
+        files.push((TRACE.to_owned(), self.trace.clone().into_bytes()));
+        files.push((CENSUS.to_owned(), self.census.to_json().into_bytes()));
+        files
+    }
+}
+
+/// The files of both fronts: as they are read again, and as functions to paste.
+pub fn front_files(run: &Run, front: &Front, minimax: &Front) -> Vec<(String, Vec<u8>)> {
+    let names = run.names();
+    let mut files = vec![
+        (FRONT.to_owned(), front.to_json(&names)),
+        (MINIMAX_FRONT.to_owned(), minimax.to_json(&names)),
+    ];
+    for (i, member) in front.members.iter().enumerate() {
+        files.extend(Language::ALL.iter().map(|&language| {
+            let file = format!("{SNIPPETS}/{:02}.{}", i + 1, language.extension());
+            (file, snippet(run, member, language))
+        }));
+    }
+    files.into_iter().map(|(file, text)| (file, text.into_bytes())).collect()
+}
+
+impl Folder {
     /// Makes the folder if there is none, and becomes its owner; what a killed process has left
     /// half-written is removed.
     ///
     /// # Errors
     /// [`RecordError::Busy`] if it has an owner; [`RecordError::Unwritable`].
-    pub fn claim(path: &Path) -> Result<RunFolder, RecordError> {
+    pub fn claim(path: &Path) -> Result<Folder, RecordError> {
         std::fs::create_dir_all(path).map_err(unwritable(path))?;
-        let folder = RunFolder { path: path.to_owned(), _lock: Lock::take(path)? };
+        let folder = Folder { path: path.to_owned(), _lock: Lock::take(path)? };
         folder.sweep();
         StagedFile::new(&path.join(RUN), b"").map_err(unwritable(path))?;
         Ok(folder)
@@ -120,11 +151,12 @@ impl RunFolder {
     }
 
     /// Removes the run that is there, and nothing else, the file that says that it is whole first; and puts
-    /// the checkpoint of another in its place. `snippets` are the run's.
+    /// the checkpoint of another in its place.
     ///
     /// # Errors
     /// [`RecordError::Unwritable`]: where the checkpoint could not be written, all is as it was.
-    pub fn begin_anew(&self, checkpoint: &[u8], snippets: &[String]) -> Result<(), RecordError> {
+    pub fn begin_anew(&self, checkpoint: &[u8]) -> Result<(), RecordError> {
+        let snippets = snippets_in(&self.path);
         let path = self.path.join(CHECKPOINT);
         let staged = StagedFile::new(&path, checkpoint).map_err(unwritable(&path))?;
         self.remove([RUN])?;
@@ -134,17 +166,13 @@ impl RunFolder {
     }
 
     /// Exchanges the run's files for others, which are all written first: `files` by name, and `run.ron`.
-    /// Files in `snippets` that are not written again are removed.
+    /// What was made of the old ones and is not written again is removed.
     ///
     /// # Errors
     /// [`RecordError::Unwritable`]: where a file could not be written, all are as they were; where one
     /// could not be removed or put in its place, the folder holds no finished run.
-    pub fn exchange(
-        &self,
-        run: &Run,
-        files: &[(String, Vec<u8>)],
-        snippets: &[String],
-    ) -> Result<(), RecordError> {
+    pub fn exchange(&self, run: &Run, files: &[(String, Vec<u8>)]) -> Result<(), RecordError> {
+        let snippets = snippets_in(&self.path);
         let mut run = run.clone();
         let read_with_it = files.iter().filter(|(file, _)| IDENTIFIED.contains(&file.as_str()));
         run.files = read_with_it.map(|(file, bytes)| (file.clone(), checksum(bytes))).collect();
@@ -188,7 +216,7 @@ impl RunFolder {
 
     /// Removes temporaries: none is in use, since nobody else is the owner.
     fn sweep(&self) {
-        let folders = [self.path.clone(), self.path.join("snippets")];
+        let folders = [self.path.clone(), self.path.join(SNIPPETS)];
         for folder in folders.iter().filter(|folder| !folder.is_symlink()) {
             let files = folder.read_dir().into_iter().flatten().flatten();
             let names = files.map(|file| (file.file_name(), file.path()));
@@ -197,6 +225,24 @@ impl RunFolder {
             temporaries.for_each(|(_, path)| drop(remove_file(&path)));
         }
     }
+}
+
+/// What runs have written to a folder's `snippets`, and nothing else.
+fn snippets_in(folder: &Path) -> Vec<String> {
+    let part = |part: Option<&OsStr>| part.and_then(OsStr::to_str).unwrap_or_default().to_owned();
+    let is_ours = |path: &Path| {
+        let (stem, extension) = (part(path.file_stem()), part(path.extension()));
+        stem.len() >= 2
+            && stem.bytes().all(|byte| byte.is_ascii_digit())
+            && Language::ALL.iter().any(|language| language.extension() == extension)
+    };
+    let folder = folder.join(SNIPPETS);
+    if folder.is_symlink() {
+        return Vec::new();
+    }
+    let files = folder.read_dir().into_iter().flatten().flatten();
+    let ours = files.map(|file| file.path()).filter(|path| is_ours(path));
+    ours.map(|path| format!("{SNIPPETS}/{}", part(path.file_name()))).collect()
 }
 
 /// The files that are read together with `run.ron`.
@@ -230,13 +276,23 @@ pub fn load_run(folder: &Path) -> Result<Run, RecordError> {
 pub fn load_front(folder: &Path, run: &Run, minimax: bool) -> Result<Front, RecordError> {
     let (file, measure) = match minimax {
         true => (MINIMAX_FRONT, Measure::Max),
-        false => (FRONT, run.settings.measure),
+        false => (FRONT, run.goal.measure),
     };
     let text = load_text(folder, run, file)?.ok_or_else(|| RecordError::Unreadable {
         path: folder.join(file),
         reason: std::io::ErrorKind::NotFound.into(),
     })?;
     Front::parse(&folder.join(file), &text, run, measure)
+}
+
+/// Reads how a folder's run went on; nothing where that was not recorded.
+///
+/// # Errors
+/// If it cannot be read, or is not the run's.
+pub fn load_trace(folder: &Path, run: &Run) -> Result<Option<Trace>, RecordError> {
+    let Some(text) = load_text(folder, run, TRACE)? else { return Ok(None) };
+    let damaged = |(line, reason)| RecordError::Damaged { path: folder.join(TRACE), line, reason };
+    Ok(Some(Trace::parse(&text).map_err(damaged)?))
 }
 
 /// The text of a file that goes with a run; nothing where there is none.

@@ -3,12 +3,12 @@
 //! often present may be a change of variable that the data calls for).
 
 use super::folder::{CENSUS, load_text};
-use super::loaded::not_negative;
 use super::{RecordError, Run};
 use crate::op::Op;
 use crate::program::{
     Arg, Constants, Draft, Instr, Names, Program, effective_into, print_expression, structural_hash,
 };
+use crate::search::not_negative;
 use serde::{Deserialize, Serialize};
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;

@@ -1,7 +1,48 @@
-//! How a search went on, from its `trace.csv`.
+//! `trace.csv`: how a search goes on, as it is written and read.
 
 use crate::fit::Measure;
+use crate::search::{Counts, Search};
 use serde::Serialize;
+
+/// A line of `trace.csv`.
+#[derive(Clone, Debug, PartialEq)]
+pub struct TracePoint {
+    pub seconds: f64,
+    pub counts: Counts,
+    pub hypervolume: f64,
+    /// The least error that the search makes small, on the search split, at each of [`TRACE_COSTS`] or below.
+    pub errors: [f64; TRACE_COSTS.len()],
+}
+
+/// The costs whose best error is traced.
+pub const TRACE_COSTS: [f64; 9] = [5.0, 8.0, 10.0, 12.0, 16.0, 20.0, 25.0, 30.0, 40.0];
+
+impl TracePoint {
+    /// Where a search stands after some seconds.
+    pub fn of(search: &Search, seconds: f64) -> TracePoint {
+        TracePoint {
+            seconds,
+            counts: search.counts(),
+            hypervolume: search.hypervolume(),
+            errors: TRACE_COSTS.map(|cost| search.best_error(cost)),
+        }
+    }
+}
+
+/// The text of `trace.csv`, its errors in a measure that names their columns.
+pub fn trace_csv(points: &[TracePoint], measure: Measure) -> String {
+    let costs = TRACE_COSTS.map(|cost| format!("{measure}_{cost}")).join(",");
+    let mut text = format!("seconds,considered,fitted,fitted_on_all,hypervolume,{costs}\n");
+    for point in points {
+        let TracePoint { seconds, counts, hypervolume, errors } = point;
+        let errors = errors.map(|error| format!("{error:.6}")).join(",");
+        text += &format!(
+            "{seconds:.3},{},{},{},{hypervolume:.4},{errors}\n",
+            counts.considered, counts.fitted, counts.fitted_on_all
+        );
+    }
+    text
+}
 
 /// The columns of a `trace.csv`.
 #[derive(Clone, Debug, Default, PartialEq, Serialize)]

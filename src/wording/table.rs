@@ -1,16 +1,9 @@
 //! A front as a table of text, published formulas on the same axes.
 
 use crate::fit::Measure;
-use crate::search::{Front, FrontMember};
+use crate::search::{Front, FrontMember, Published};
 use crate::stability::ClaimRecord;
 use std::fmt::Write;
-
-/// A published formula, scored as a member would be.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Published {
-    pub name: String,
-    pub member: FrontMember,
-}
 
 /// The front by rising cost, each member's formula under its numbers, incumbents where their cost
 /// puts them. Errors are over all outputs; those by output follow where there are several.

@@ -1,0 +1,23 @@
+//! When a search without a budget is over.
+
+use super::TracePoint;
+
+/// When a search last became better.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct Improvement {
+    hypervolume: f64,
+    seconds: f64,
+}
+
+impl Improvement {
+    /// A hypervolume larger by this share is an improvement.
+    const ENOUGH: f64 = 1e-3;
+
+    /// Whether nothing has improved for long: ten seconds, and a third of the time.
+    pub fn stalled(&mut self, point: &TracePoint) -> bool {
+        if point.hypervolume > self.hypervolume * (1.0 + Improvement::ENOUGH) {
+            *self = Improvement { hypervolume: point.hypervolume, seconds: point.seconds };
+        }
+        point.seconds - self.seconds > (point.seconds / 3.0).max(10.0)
+    }
+}

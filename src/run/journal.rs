@@ -1,0 +1,48 @@
+//! What a session notes as it goes on: its trace, what recurs in its formulas.
+
+use super::{Census, TracePoint, trace_csv};
+use crate::fit::Measure;
+use crate::program::Names;
+use crate::search::Search;
+
+/// Each line of a trace is this many times later than the one before: a long run's trace stays short, and
+/// its beginning fine enough.
+const TRACE_RATIO: f64 = 1.05;
+
+/// The notes of a session.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Journal {
+    trace: Vec<TracePoint>,
+    /// The text of the run that this one goes on with.
+    earlier: String,
+    pub census: Census,
+}
+
+impl Journal {
+    /// Of a run that goes on.
+    pub fn resumed(trace: String, census: Census) -> Journal {
+        Journal { trace: Vec::new(), earlier: trace, census }
+    }
+
+    /// Notes where the search stands, unless that was done just now; says whether.
+    pub fn note(&mut self, point: &TracePoint, search: &Search, names: &Names) -> bool {
+        let due = |last: &TracePoint| point.seconds >= last.seconds * TRACE_RATIO;
+        if !self.trace.last().is_none_or(due) {
+            return false;
+        }
+        for member in search.archive().members() {
+            self.census.count(&search.problem().natural(&member.draft), names, point.seconds);
+        }
+        self.trace.push(point.clone());
+        true
+    }
+
+    /// The text of `trace.csv`.
+    pub fn trace(&self, measure: Measure) -> String {
+        let trace = trace_csv(&self.trace, measure);
+        match self.earlier.is_empty() {
+            true => trace,
+            false => self.earlier.clone() + trace.split_once('\n').map_or("", |(_, lines)| lines),
+        }
+    }
+}

@@ -1,0 +1,119 @@
+//! `front.json` and `front-max.json`: members as they are written, and how they are read back.
+
+use super::folder::read;
+use super::{RecordError, Run};
+use crate::dataset::output_units;
+use crate::eval::{OutputError, Score};
+use crate::fit::Measure;
+use crate::program::{Names, parse};
+use crate::search::{Front, FrontMember};
+use crate::stability::VerdictRecord;
+use serde::{Deserialize, Serialize};
+use std::collections::BTreeMap;
+use std::path::Path;
+
+/// A member as `front.json` has it.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct MemberRecord {
+    pub cost: f64,
+    /// Null in records of a version that did not count them.
+    pub registers: Option<u32>,
+    /// Over all outputs, on the search split.
+    pub rmse: f64,
+    pub max_error: f64,
+    pub validation: OutputError,
+    /// By output, on the search split.
+    pub errors: BTreeMap<String, OutputError>,
+    /// By output, on the validation split.
+    pub validation_errors: BTreeMap<String, OutputError>,
+    #[serde(default)]
+    pub verdict: VerdictRecord,
+    pub formula: String,
+}
+
+impl MemberRecord {
+    pub fn new(member: &FrontMember, names: &Names) -> MemberRecord {
+        let by_output = |errors: &[OutputError]| {
+            names.outputs.iter().cloned().zip(errors.iter().copied()).collect()
+        };
+        MemberRecord {
+            cost: member.cost,
+            registers: member.registers,
+            rmse: member.search_error().rmse,
+            max_error: member.search_error().max,
+            validation: member.validation_error(),
+            errors: by_output(&member.score.search),
+            validation_errors: by_output(&member.score.validation),
+            verdict: member.verdict.clone(),
+            formula: member.formula.clone(),
+        }
+    }
+
+    fn into_member(self, run: &Run) -> Result<FrontMember, String> {
+        let names = &run.names();
+        let program = parse(&self.formula, names).map_err(|error| error.to_string())?;
+        let errors = |map: &BTreeMap<String, OutputError>| {
+            let of = |name: &String| map.get(name).copied();
+            let errors: Option<Vec<_>> = names.outputs.iter().map(of).collect();
+            errors.ok_or_else(|| "an output's errors are missing".to_owned())
+        };
+        let score = Score {
+            search: errors(&self.errors)?,
+            validation: errors(&self.validation_errors)?,
+            units: output_units(&run.outputs),
+        };
+        let member = FrontMember {
+            program,
+            cost: self.cost,
+            registers: self.registers,
+            score,
+            verdict: self.verdict,
+            formula: self.formula,
+        };
+        member.check()?;
+        Ok(member)
+    }
+}
+
+impl Front {
+    /// The text of `front.json`.
+    pub fn to_json(&self, names: &Names) -> String {
+        let members: Vec<_> = self.members.iter().map(|m| MemberRecord::new(m, names)).collect();
+        serde_json::to_string_pretty(&members).expect("plain data") + "\n"
+    }
+
+    /// Reads `front.json` or `front-max.json` of a run's folder, in the measure that it was made in.
+    pub fn load(path: &Path, run: &Run, measure: Measure) -> Result<Front, RecordError> {
+        Front::parse(path, &read(path)?, run, measure)
+    }
+
+    /// The same of the file's text.
+    pub fn parse(
+        path: &Path,
+        text: &str,
+        run: &Run,
+        measure: Measure,
+    ) -> Result<Front, RecordError> {
+        let damaged = |line, reason| RecordError::Damaged { path: path.to_owned(), line, reason };
+        let records: Vec<MemberRecord> =
+            serde_json::from_str(text).map_err(|error| damaged(error.line(), error.to_string()))?;
+        let mut members = Vec::with_capacity(records.len());
+        for (number, record) in (1..).zip(records) {
+            let member = record.into_member(run).map_err(|reason| {
+                damaged(line_of_member(text, number), format!("formula {number}: {reason}"))
+            })?;
+            members.push(member);
+        }
+        if !members.is_sorted_by(|a, b| a.cost <= b.cost) {
+            return Err(damaged(1, "the formulas are not by rising cost".into()));
+        }
+        Ok(Front { measure, members })
+    }
+}
+
+/// The line on which a member's cost, its first field, stands; the first where that is not to be seen.
+fn line_of_member(text: &str, number: usize) -> usize {
+    let mut lines = (1..).zip(text.lines());
+    let costs = lines.by_ref().filter(|(_, line)| line.trim_start().starts_with("\"cost\""));
+    costs.map(|(line, _)| line).nth(number - 1).unwrap_or(1)
+}

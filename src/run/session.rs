@@ -1,0 +1,419 @@
+//! A search under way, with its budget: from its start to both fronts.
+
+use super::improvement::Improvement;
+use super::journal::Journal;
+use super::record::machine;
+use super::{Budget, Census, Checkpoint, Folder, RecordError, Run, Timetable, TracePoint, snippet};
+use crate::deadline::{Deadline, Stop};
+use crate::emit::Language;
+use crate::fit::Measure;
+use crate::program::{Draft, ParseError, parse};
+use crate::scene::Scene;
+use crate::search::{Enumeration, Front, FrontMember, Method, Problem, Search, SetupError, Work};
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+use std::time::{Duration, Instant};
+
+/// Between two looks at a generation that lasts long.
+const PAUSE: Duration = Duration::from_secs(1);
+
+/// Between checkpoints.
+const CHECKPOINT_INTERVAL: Duration = Duration::from_secs(15);
+
+/// Where all formulas up to some cost were asked for, so many structures at most: a few minutes.
+const MOST_ENUMERATED: usize = 200_000;
+
+/// A search under way, and what becomes of it.
+///
+/// ```
+/// use lgp::dataset::{Dataset, axis};
+/// use lgp::run::{Budget, Session};
+/// use lgp::search::{Method, Problem};
+///
+/// let schlick = |[v_dot_h]: [f64; 1]| [(1.0 - v_dot_h).powi(5)];
+/// let data = Dataset::sampled([axis("v_dot_h", 0.0..=1.0)], ["weight"], schlick)?;
+/// let problem = Problem::of(data).max_cost(8.0).build()?;
+/// let mut session = Session::new(problem, Method { islands: 2, ..Method::default() })?
+///     .budget(Budget { generations: Some(5), ..Budget::default() });
+/// let outcome = session.run(|progress| eprintln!("{:.0} s", progress.point.seconds))?;
+/// assert!(outcome.front.members.iter().any(|member| member.cost <= 3.0));
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+#[derive(Debug)]
+pub struct Session {
+    search: Search,
+    run: Run,
+    guesses: Vec<Draft>,
+    start: Instant,
+    stop: Stop,
+    /// Seconds of the run that this one goes on with.
+    before: f64,
+    /// From the first step on.
+    times: Option<Timetable>,
+    /// Where there is no budget.
+    improvement: Option<Improvement>,
+    is_over: bool,
+    journal: Journal,
+    kept: Option<Kept>,
+    warning: Option<RecordError>,
+}
+
+/// Where a session is written.
+#[derive(Debug)]
+struct Kept {
+    folder: Folder,
+    /// Whether the folder still holds another run, which this one is to take the place of.
+    replaces: bool,
+    last_checkpoint: Instant,
+}
+
+/// Where a session stands after a step.
+#[derive(Clone, Debug)]
+pub struct Progress {
+    pub point: TracePoint,
+    /// What the point's errors are.
+    pub measure: Measure,
+    /// The share of the budget that is spent.
+    pub share: f64,
+}
+
+/// What follows a search, one after the other.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Phase {
+    Polish,
+    PolishForMaximum,
+    Prove,
+    ProveForMaximum,
+}
+
+/// What a search leaves behind.
+#[derive(Clone, Debug)]
+pub struct Outcome {
+    pub run: Run,
+    /// In the measure that was made small.
+    pub front: Front,
+    /// In maximum error, constants fitted for that.
+    pub minimax: Front,
+    /// The text of `trace.csv`.
+    pub trace: String,
+    pub census: Census,
+    /// Formulas that the search had archived.
+    pub archived: usize,
+}
+
+impl Outcome {
+    /// A member as a function ready to paste.
+    pub fn snippet(&self, member: &FrontMember, language: Language) -> String {
+        snippet(&self.run, member, language)
+    }
+}
+
+impl Session {
+    /// A search that has not begun, with no budget: it goes on until little improves.
+    ///
+    /// # Errors
+    /// [`SetupError::Method`].
+    pub fn new(problem: impl Into<Arc<Problem>>, method: Method) -> Result<Session, SetupError> {
+        let problem = problem.into();
+        let run = Run::of(&problem, &method);
+        let search = Search::new(problem, method)?;
+        Ok(Session::with(search, run, Journal::default()))
+    }
+
+    /// A search that goes on from a checkpoint. One that was killed before its first candidate begins once
+    /// more.
+    ///
+    /// # Errors
+    /// [`SetupError`]: the checkpoint is not of this problem; [`ParseError`] of a guess.
+    pub fn resume(
+        problem: impl Into<Arc<Problem>>,
+        checkpoint: Checkpoint,
+    ) -> Result<Session, SetupError> {
+        let problem = problem.into();
+        let Checkpoint { mut run, state, trace, census } = checkpoint;
+        (run.threads, run.machine) = (rayon::current_num_threads(), machine());
+        let method = run.method.clone();
+        if state.counts().considered == 0 {
+            run.seconds = 0.0;
+            let search = Search::new(problem, method)?;
+            return Ok(Session::with(search, run, Journal::default()));
+        }
+        let search = Search::resume(problem, method, state)?;
+        let before = run.seconds;
+        let session = Session::with(search, run, Journal::resumed(trace, census));
+        Ok(Session { before, ..session })
+    }
+
+    fn with(search: Search, run: Run, journal: Journal) -> Session {
+        Session {
+            search,
+            run,
+            guesses: Vec::new(),
+            start: Instant::now(),
+            stop: Stop::default(),
+            before: 0.0,
+            times: None,
+            improvement: None,
+            is_over: false,
+            journal,
+            kept: None,
+            warning: None,
+        }
+    }
+
+    /// What the whole run may spend.
+    pub fn budget(mut self, budget: Budget) -> Session {
+        self.run.budget = budget;
+        self
+    }
+
+    /// Formulas to start from, over the dataset's columns.
+    ///
+    /// # Errors
+    /// The first that cannot be read.
+    pub fn guesses(mut self, texts: &[String]) -> Result<Session, ParseError> {
+        let names = self.search.problem().dataset().names();
+        let read = |text: &String| Ok(parse(text, &names)?.into_draft());
+        self.guesses = texts.iter().map(read).collect::<Result<_, ParseError>>()?;
+        self.run.guesses = texts.to_vec();
+        Ok(self)
+    }
+
+    /// Tries all formulas of at most so many cycles first.
+    pub fn exhaustive(mut self, cycles: Option<f64>) -> Session {
+        self.run.exhaustive = cycles;
+        self
+    }
+
+    /// Where the data came from, for the record: a file, its hash, the scene that was made of it.
+    pub fn of_file(mut self, path: PathBuf, hash: String, scene: Option<Scene>) -> Session {
+        (self.run.dataset, self.run.dataset_hash, self.run.scene) = (path, hash, scene);
+        self
+    }
+
+    /// What the GPU profile was asked for as, and by which command, for the record.
+    pub fn asked_by(mut self, gpu: &str, command: Vec<String>) -> Session {
+        (self.run.gpu, self.run.command) = (gpu.to_owned(), command);
+        self
+    }
+
+    /// Checkpoints go to this folder; `replaces` the run that is there.
+    pub fn kept_in(mut self, folder: Folder, replaces: bool) -> Session {
+        self.kept = Some(Kept { folder, replaces, last_checkpoint: Instant::now() });
+        self
+    }
+
+    /// The budget's time counts from here.
+    pub fn since(mut self, start: Instant) -> Session {
+        self.start = start;
+        self
+    }
+
+    /// Requests that end it early: one the search, one more what follows it.
+    pub fn until_asked(mut self, stop: &Stop) -> Session {
+        self.stop = stop.clone();
+        self
+    }
+
+    pub fn search(&self) -> &Search {
+        &self.search
+    }
+
+    /// The record, as it was when something was last written.
+    pub fn record(&self) -> &Run {
+        &self.run
+    }
+
+    /// Where it is written.
+    pub fn folder(&self) -> Option<&Path> {
+        self.kept.as_ref().map(|kept| kept.folder.path())
+    }
+
+    /// Why the last checkpoint could not be written, once: the search goes on all the same, since its end may
+    /// still be written.
+    pub fn take_warning(&mut self) -> Option<RecordError> {
+        self.warning.take()
+    }
+
+    /// The time that is left for what is made of the outcome.
+    pub fn time_left(&self) -> Deadline {
+        self.times.as_ref().map_or(Deadline::NEVER, Timetable::writing)
+    }
+
+    /// Enumerates, and takes the guesses in; what the first step does, unless it has been done.
+    ///
+    /// # Errors
+    /// [`SetupError::TooMany`], where all formulas up to some cost were asked for.
+    pub fn begin(&mut self) -> Result<(), SetupError> {
+        if self.times.is_some() {
+            return Ok(());
+        }
+        let data = self.search.problem().dataset();
+        let rows = data.search.rows() + data.validation.rows();
+        let left = |time: f64| Duration::from_secs_f64((time - self.before).max(0.0));
+        let time = self.run.budget.time().map(left);
+        let times = Timetable::new(self.start, time, rows, &self.stop);
+        self.improvement = (self.run.budget == Budget::default()).then(Improvement::default);
+        let (starting, searching) = (times.starting(), times.search());
+        self.times = Some(times);
+        if self.before > 0.0 {
+            return Ok(());
+        }
+        self.checkpoint();
+        let asked = self.run.exhaustive;
+        let (cost, most) = asked.map_or(Enumeration::USUAL, |cost| (cost, MOST_ENUMERATED));
+        self.search.enumerate_until(cost, most, &starting);
+        let is_known = self.search.enumeration().is_some() || starting.is_past();
+        if asked.is_some() && !is_known {
+            return Err(SetupError::TooMany { cost, most });
+        }
+        self.search.settle_until(&self.guesses, &searching);
+        Ok(())
+    }
+
+    /// Goes on for a generation, or about a second of one; nothing where the search is over.
+    ///
+    /// # Errors
+    /// Those of [`Session::begin`].
+    pub fn step(&mut self) -> Result<Option<Progress>, SetupError> {
+        self.begin()?;
+        let budget = self.run.budget;
+        let times = self.times.as_ref().expect("it has begun");
+        let deadline = times.search();
+        let is_done = budget.generations.is_some_and(|n| self.search.generation() >= n);
+        if self.is_over || is_done || deadline.is_past() {
+            return Ok(None);
+        }
+        self.search.advance_until(&deadline.pausing_in(PAUSE));
+        let point = TracePoint::of(&self.search, self.before + times.seconds());
+        let stalled = |improvement: &mut Improvement| improvement.stalled(&point);
+        self.is_over = self.improvement.as_mut().is_some_and(stalled);
+        self.note(&point);
+        if !self.is_over {
+            self.times.as_mut().expect("it has begun").rehearse(&self.search);
+        }
+        let share = budget.share(point.seconds, self.search.generation());
+        Ok(Some(Progress { point, measure: self.search.problem().goal().measure, share }))
+    }
+
+    /// Notes where it stands; checkpoints now and then.
+    fn note(&mut self, point: &TracePoint) {
+        let names = self.run.names();
+        self.journal.note(point, &self.search, &names);
+        let due = |kept: &Kept| kept.last_checkpoint.elapsed() >= CHECKPOINT_INTERVAL;
+        if self.kept.as_ref().is_some_and(due) {
+            self.checkpoint();
+        }
+    }
+
+    /// Brings the record up to date.
+    fn bring_up_to_date(&mut self) {
+        let search = &self.search;
+        self.run.generations = search.generation();
+        self.run.counts = search.counts();
+        self.run.enumeration = search.enumeration();
+        self.run.seconds = self.seconds();
+    }
+
+    /// Of the whole run.
+    fn seconds(&self) -> f64 {
+        self.before + self.times.as_ref().map_or(0.0, Timetable::seconds)
+    }
+
+    /// Writes what [`Session::resume`] goes on with, or notes a warning.
+    fn checkpoint(&mut self) {
+        self.bring_up_to_date();
+        if let Err(error) = self.write_checkpoint() {
+            self.warning = Some(error);
+        }
+    }
+
+    fn write_checkpoint(&mut self) -> Result<(), RecordError> {
+        let Some(kept) = &mut self.kept else { return Ok(()) };
+        kept.last_checkpoint = Instant::now();
+        let trace = self.journal.trace(self.run.goal.measure);
+        let state = self.search.state();
+        let bytes = Checkpoint::bytes(&self.run, state, &trace, &self.journal.census);
+        if kept.replaces {
+            kept.folder.begin_anew(&bytes)?;
+            kept.replaces = false;
+            return Ok(());
+        }
+        kept.folder.checkpoint(&bytes)
+    }
+
+    /// Both fronts, polished and judged, as good as there is time for. `hear` is told, from any thread, how far
+    /// each phase has come; of its end by nothing, alone.
+    pub fn finish(&mut self, hear: &(dyn Fn(Phase, Option<f64>) + Sync)) -> Outcome {
+        self.bring_up_to_date();
+        let mut times =
+            self.times.take().unwrap_or_else(|| Timetable::new(self.start, None, 0, &self.stop));
+        times.begin_finishing();
+        let search = &self.search;
+        let mut front =
+            heard(hear, Phase::Polish, times.polishing(), |work| Front::polished(search, work));
+        let mut minimax = heard(hear, Phase::PolishForMaximum, times.polishing(), |work| {
+            Front::polished_in(search, Measure::Max, &front, work)
+        });
+        let (questions, names) = (search.problem().questions(), search.problem().dataset().names());
+        heard(hear, Phase::Prove, times.judging(), |work| {
+            front.judge_until(&questions, &names, &|| work.deadline.is_past());
+        });
+        if front.measure == minimax.measure {
+            minimax.clone_from(&front);
+        } else {
+            heard(hear, Phase::ProveForMaximum, times.judging(), |work| {
+                minimax.judge_until(&questions, &names, &|| work.deadline.is_past());
+            });
+        }
+        self.times = Some(times);
+        Outcome {
+            run: self.run.clone(),
+            front,
+            minimax,
+            trace: self.journal.trace(self.run.goal.measure),
+            census: self.journal.census.clone(),
+            archived: self.search.archive().members().len(),
+        }
+    }
+
+    /// Goes on until its budget is spent, and finishes.
+    ///
+    /// # Errors
+    /// Those of [`Session::step`].
+    pub fn run(&mut self, mut hear: impl FnMut(&Progress)) -> Result<Outcome, SetupError> {
+        while let Some(progress) = self.step()? {
+            hear(&progress);
+        }
+        Ok(self.finish(&|_, _| {}))
+    }
+
+    /// Puts the outcome, and files that were made of it, in the place of what its folder holds.
+    ///
+    /// # Errors
+    /// [`RecordError::Unwritable`]: as [`Folder::exchange`], or of the last checkpoint, where all else is
+    /// written.
+    pub fn write(
+        &mut self,
+        outcome: &Outcome,
+        made_of_it: Vec<(String, Vec<u8>)>,
+    ) -> Result<(), RecordError> {
+        let checkpointed = self.write_checkpoint();
+        if let Some(kept) = &self.kept {
+            kept.folder.exchange(&outcome.run, &[outcome.files(), made_of_it].concat())?;
+        }
+        checkpointed
+    }
+}
+
+fn heard<T>(
+    hear: &(dyn Fn(Phase, Option<f64>) + Sync),
+    phase: Phase,
+    deadline: Deadline,
+    job: impl FnOnce(&Work) -> T,
+) -> T {
+    hear(phase, Some(0.0));
+    let done = job(&Work { deadline, progress: &|share| hear(phase, Some(share)) });
+    hear(phase, None);
+    done
+}

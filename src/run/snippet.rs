@@ -1,0 +1,109 @@
+//! Members as functions ready to paste, each with a comment that says what it is.
+
+use super::Run;
+use crate::dataset::Column;
+use crate::emit::{self, Language, Snippet};
+use crate::eval::OutputError;
+use crate::fit::Measure;
+use crate::num::Interval;
+use crate::program::shortest;
+use crate::search::FrontMember;
+use crate::stability::half_loss;
+use crate::wording::examination::at_most;
+use crate::wording::{cycles_text, error_text, number_text, title, verdict_lines};
+use std::collections::BTreeSet;
+
+/// A member as a function ready to paste.
+pub fn snippet(run: &Run, member: &FrontMember, language: Language) -> String {
+    let (names, header) = (run.names(), header(run, member));
+    emit::emit(
+        language,
+        &Snippet { program: &member.program, names: &names, function: &run.name, header: &header },
+    )
+}
+
+/// A member in half precision but for some instructions, in a language that has it.
+pub fn half_snippet(
+    run: &Run,
+    member: &FrontMember,
+    language: Language,
+    domain: &[Interval],
+    stay_single: &[usize],
+) -> Option<String> {
+    let (names, mut header) = (run.names(), header(run, member));
+    let (error, tried) = half_loss(&member.program, domain, stay_single);
+    header
+        .push("cost, errors and verdicts above are those of single precision; this is".to_owned());
+    header.push(match stay_single.len() {
+        0 => "in half precision throughout,".to_owned(),
+        singles => {
+            let total = member.program.instrs.len();
+            format!("in half precision, {singles} of {total} operations in single,")
+        }
+    });
+    header.push(format!("which adds an error of {}", at_most(&number_text(error), tried)));
+    let snippet =
+        Snippet { program: &member.program, names: &names, function: &run.name, header: &header };
+    emit::emit_half(language, &snippet, stay_single)
+}
+
+fn header(run: &Run, member: &FrontMember) -> Vec<String> {
+    let names = run.names();
+    let (search, validation) = (member.search_error(), member.validation_error());
+    let mut header = vec![
+        format!("{} → {}", names.inputs.join(", "), names.outputs.join(", ")),
+        format!("data: {} ({}), {}, lgp {}", run.name, run.dataset_hash, seeds(run), run.version),
+        format!("domain: {}", domains(&run.inputs)),
+        cost_line(member, run),
+        format!("error: {} on the search split", described(search, run.goal.measure)),
+        format!("       {} on the validation split", described(validation, run.goal.measure)),
+    ];
+    if let Some(scene) = &run.scene {
+        header.insert(2, format!("scene: {}: {}", scene.name, scene.summary()));
+    }
+    if names.outputs.len() > 1 {
+        for (output, error) in names.outputs.iter().zip(&member.score.search) {
+            header.push(format!("       {output}: {}", described(*error, run.goal.measure)));
+        }
+    }
+    header.extend(verdict_lines(&member.verdict));
+    header.push(emit::formula_line(&member.formula));
+    header
+}
+
+/// The seed of a search, or those of a union.
+pub fn seeds(run: &Run) -> String {
+    if run.sources.is_empty() {
+        return format!("seed {}", run.method.seed);
+    }
+    let seeds: BTreeSet<u64> = run.sources.iter().map(|source| source.method.seed).collect();
+    let seeds: Vec<String> = seeds.iter().map(u64::to_string).collect();
+    format!("{} {}", if seeds.len() == 1 { "seed" } else { "seeds" }, seeds.join(", "))
+}
+
+fn cost_line(member: &FrontMember, run: &Run) -> String {
+    let cycles = cycles_text(member.cost);
+    match member.registers {
+        Some(1) => format!("cost: {cycles} cycles, 1 register on {}", run.gpu),
+        Some(registers) => format!("cost: {cycles} cycles, {registers} registers on {}", run.gpu),
+        None => format!("cost: {cycles} cycles on {}", run.gpu),
+    }
+}
+
+/// RMSE and maximum; and first what was made small, if it is neither.
+fn described(error: OutputError, measure: Measure) -> String {
+    let usual = format!("RMSE {}, max {}", error_text(error.rmse), error_text(error.max));
+    match measure {
+        Measure::Rmse | Measure::Max => usual,
+        _ => format!("{} {}, {usual}", title(measure), error_text(error.of(measure))),
+    }
+}
+
+/// `a in [0, 1], b in [0, 2]`.
+pub fn domains(inputs: &[Column]) -> String {
+    let domain = |column: &Column| {
+        let [low, high] = column.domain.map(shortest);
+        format!("{} in [{low}, {high}]", column.name)
+    };
+    inputs.iter().map(domain).collect::<Vec<_>>().join(", ")
+}
