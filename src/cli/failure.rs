@@ -2,7 +2,7 @@ use super::output::to_stderr;
 use crate::grammar::FileError;
 use crate::run::{Incompatible, RecordError, SubjectError};
 use crate::search::SetupError;
-use crate::{dataset, program, scene, targets};
+use crate::{dataset, program, report, scene, targets};
 use std::io::ErrorKind;
 use std::path::Path;
 use std::process::ExitCode;
@@ -139,6 +139,21 @@ impl From<SubjectError> for Failure {
             SubjectError::Dataset(error) => error.into(),
             SubjectError::Scene(error) => error.into(),
             error @ SubjectError::OtherData { .. } => Failure::new(Exit::Input, error),
+        }
+    }
+}
+
+impl From<report::Error> for Failure {
+    fn from(error: report::Error) -> Failure {
+        match error {
+            report::Error::Record(error) => error.into(),
+            report::Error::Subject(error) => error.into(),
+            report::Error::File(error) => error.into(),
+            report::Error::NoData => {
+                Failure::input(format!("--measure: {error}; --dataset says where it is"))
+            }
+            report::Error::Plot(error) => Failure::new(Exit::Failed, error),
+            error => Failure::new(Exit::Input, error),
         }
     }
 }

@@ -1,6 +1,6 @@
-use super::report::write_plots;
 use super::run_folder::{self, Which};
 use super::{Common, Failure, front};
+use crate::report::write_plots;
 use crate::run::{
     CHECKPOINT, FRONT_TABLE, Folder, Holding, MemberRecord, Run, front_files, in_the_way, load_run,
     merge,
@@ -43,7 +43,7 @@ pub fn run(args: &Args, common: &Common) -> Result<(), Failure> {
     let written = folder
         .exchange(&run, &files)
         .map_err(Failure::from)
-        .and_then(|()| write_plots(&args.out, &run, &union, &incumbents));
+        .and_then(|()| Ok(write_plots(&args.out, &run, &union, &incumbents)?));
     let names = run.names();
     let records: Vec<_> = union.members.iter().map(|m| MemberRecord::new(m, &names)).collect();
     common.result(&records, &table)?;

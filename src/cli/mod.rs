@@ -1,10 +1,10 @@
 //! The command line. One file a subcommand, each with its `Args` and a `run`.
 
 mod analyze;
+mod argument;
 mod check;
 mod columns;
 mod cost;
-mod duration;
 mod emit;
 mod eval;
 mod failure;

@@ -1,13 +1,13 @@
 use super::output::to_stderr;
 use super::plan::Plan;
 use super::progress::{LiveFront, Phases};
-use super::report::{self, Gathered};
 use super::timings::Timings;
-use super::{Common, Failure, columns::Columns, duration, interrupts, refusals, tiers};
+use super::{Common, Failure, argument, columns::Columns, interrupts, refusals, tiers};
 use crate::emit::Language;
 use crate::fit::Measure;
+use crate::report::Report;
 use crate::run::{FRONT_TABLE, MemberRecord, Outcome, Run, Session};
-use crate::search::{MOST_CYCLES, MOST_ISLANDS, SetupError};
+use crate::search::{MOST_ISLANDS, SetupError};
 use crate::wording::front_table;
 use std::path::{Path, PathBuf};
 use std::time::Duration;
@@ -35,13 +35,13 @@ pub struct Args {
     pub(super) gpu: Option<String>,
     /// How long it may take until all is written, as in 60s, 10m [default: until little
     /// improves, 60s at most; unless --generations is given]
-    #[arg(long, value_parser = duration::parse)]
+    #[arg(long, value_parser = argument::duration)]
     pub(super) time: Option<Duration>,
     /// Stop after N generations: with the same seed the same front, whatever the threads
     #[arg(long, value_name = "N")]
     pub(super) generations: Option<u64>,
     /// The most cycles that a formula may cost [default: 40, or what the scene's tiers may spend]
-    #[arg(long, value_name = "C", value_parser = budget, allow_hyphen_values = true)]
+    #[arg(long, value_name = "C", value_parser = argument::cycles, allow_hyphen_values = true)]
     pub(super) max_cost: Option<f64>,
     /// What is made small: rmse, max, weighted (by the dataset's weights) or relative [default: rmse,
     /// or weighted where the dataset has weights]
@@ -65,7 +65,7 @@ pub struct Args {
     pub(super) exhaustive: Option<f64>,
     /// The share of candidates that are made at random, not from others; 1 for random restarts
     /// [default: 0]
-    #[arg(long, value_name = "SHARE", value_parser = share)]
+    #[arg(long, value_name = "SHARE", value_parser = argument::share)]
     pub(super) immigrants: Option<f64>,
     /// A formula to start from, over the dataset's columns; may be given more than once
     #[arg(long, value_name = "FORMULA")]
@@ -83,15 +83,6 @@ pub struct Args {
     /// Say on stderr how many seconds each phase took
     #[arg(long)]
     timings: bool,
-}
-
-fn budget(text: &str) -> Result<f64, String> {
-    match text.parse::<f64>() {
-        Ok(cost) if (0.0..=MOST_CYCLES).contains(&cost) => Ok(cost),
-        _ => {
-            Err(format!("a cost budget is 0 to {MOST_CYCLES} cycles; no formula costs less than 0"))
-        }
-    }
 }
 
 pub fn run(args: &Args, common: &Common) -> Result<(), Failure> {
@@ -120,8 +111,11 @@ pub fn run(args: &Args, common: &Common) -> Result<(), Failure> {
     show(common, &outcome, table, &folder)?;
     written?;
     timings.note("files");
-    let gathered = Gathered::of(&outcome, subject.dataset, incumbents);
-    report::write(&gathered, &folder, common, &session.time_left())?;
+    let report = Report::of(&outcome, subject.dataset, incumbents);
+    if !report.write(&folder, &session.time_left())?.is_whole && !common.quiet {
+        let folder = folder.display();
+        eprintln!("there was no time for all pictures; `lgp report {folder}` makes them");
+    }
     timings.note("page and pictures");
     say_where(common, run, &folder);
     if args.timings {
@@ -159,11 +153,6 @@ fn search(session: &mut Session, common: &Common) -> Result<(), Failure> {
     }
     bar.clear();
     Ok(())
-}
-
-fn share(text: &str) -> Result<f64, String> {
-    let share = text.parse().ok().filter(|share| (0.0..=1.0).contains(share));
-    share.ok_or_else(|| "a share is from 0 to 1".into())
 }
 
 fn show(common: &Common, outcome: &Outcome, table: String, folder: &Path) -> Result<(), Failure> {

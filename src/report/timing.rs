@@ -1,8 +1,7 @@
 //! What an evaluation takes on a processor, measured once and kept beside the run: the page is made
 //! of what is kept, so that it stays the same.
 
-use super::{Gathered, write_file};
-use crate::cli::Failure;
+use super::{Error, Report, write_file};
 use crate::dataset::{LARGEST_TEXT, read_text};
 use crate::eval::{Evaluator, Isa, Samples, Tape};
 use crate::program::Program;
@@ -19,7 +18,7 @@ const SPENT: Duration = Duration::from_millis(30);
 
 /// Nanoseconds that an evaluation takes on a device, by formula text.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub(super) struct Timing {
+pub struct Timing {
     pub device: String,
     /// How it was measured.
     pub method: String,
@@ -27,24 +26,33 @@ pub(super) struct Timing {
 }
 
 impl Timing {
-    pub(super) fn of(&self, formula: &str) -> Option<f64> {
+    pub fn of(&self, formula: &str) -> Option<f64> {
         self.ns.get(formula).copied()
     }
 }
 
-/// Measures all formulas on this processor, by the interpreter on one thread, and writes the file;
-/// what it holds of other devices stays.
-pub(super) fn measure(gathered: &Gathered, folder: &Path) -> Result<(), Failure> {
-    let Some(dataset) = &gathered.dataset else {
-        let message =
-            "--measure evaluates on the dataset, which is not there; --dataset says where";
-        return Err(Failure::input(message));
-    };
+impl Report {
+    /// Measures all formulas on this processor, by the interpreter on one thread, and writes the file;
+    /// what it holds of other devices stays.
+    ///
+    /// # Errors
+    /// [`Error::NoData`]; [`Error::Record`].
+    pub fn measure(&mut self, folder: &Path) -> Result<(), Error> {
+        let timing = measured(self)?;
+        self.timings.retain(|known| known.device != timing.device);
+        self.timings.push(timing);
+        let text = serde_json::to_string_pretty(&self.timings).expect("plain data") + "\n";
+        write_file(folder, FILE, text.as_bytes())
+    }
+}
+
+fn measured(report: &Report) -> Result<Timing, Error> {
+    let dataset = report.dataset.as_ref().ok_or(Error::NoData)?;
     let samples = Samples::new(&dataset.search, dataset.inputs.len());
     let mut evaluator = Evaluator::default();
-    let members = gathered.front.members.iter().chain(&gathered.minimax.members);
-    let all = members.chain(gathered.published.iter().map(|known| &known.member));
-    let timing = Timing {
+    let members = report.front.members.iter().chain(&report.minimax.members);
+    let all = members.chain(report.published.iter().map(|known| &known.member));
+    Ok(Timing {
         device: format!("CPU, {}", Isa::best()),
         method: "the interpreter on one thread, the shortest of many runs over the search split"
             .to_owned(),
@@ -55,12 +63,7 @@ pub(super) fn measure(gathered: &Gathered, folder: &Path) -> Result<(), Failure>
                 (member.formula.clone(), format!("{ns:.3e}").parse().unwrap_or(ns))
             })
             .collect(),
-    };
-    let mut timings = load(folder)?;
-    timings.retain(|known| known.device != timing.device);
-    timings.push(timing);
-    let text = serde_json::to_string_pretty(&timings).expect("plain data") + "\n";
-    write_file(folder, FILE, text.as_bytes())
+    })
 }
 
 fn nanoseconds(program: &Program, samples: &Samples, evaluator: &mut Evaluator) -> f64 {
@@ -76,7 +79,7 @@ fn nanoseconds(program: &Program, samples: &Samples, evaluator: &mut Evaluator) 
 }
 
 /// What was measured before; nothing where there is no file.
-pub(super) fn load(folder: &Path) -> Result<Vec<Timing>, Failure> {
+pub(super) fn load(folder: &Path) -> Result<Vec<Timing>, Error> {
     let path = folder.join(FILE);
     if !path.exists() {
         return Ok(Vec::new());

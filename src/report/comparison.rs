@@ -1,20 +1,24 @@
 //! Several runs beside each other.
 
-use crate::cli::run_folder::{self, Which};
-use crate::cli::{Failure, output};
-use crate::dataset::replace_file;
+use super::Error;
+use super::page::{self, ComparedRun, Comparison, Group};
 use crate::fit::Measure;
-use crate::report::page::{self, ComparedRun, Comparison, Group};
-use crate::run::{Run, TRACE_COSTS, load_trace};
+use crate::run::{Run, TRACE_COSTS, load_front, load_run, load_trace};
 use crate::wording::axis_title;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
-/// Gives the bytes of the page.
-pub(super) fn write(folders: &[PathBuf], path: &Path) -> Result<usize, Failure> {
-    output::check_writable(path)?;
+/// The page that compares the runs of several folders.
+///
+/// # Errors
+/// [`Error::Record`]; [`Error::Incomparable`].
+///
+/// # Panics
+/// If there is no folder.
+pub fn comparison(folders: &[PathBuf]) -> Result<String, Error> {
     let mut runs = Vec::new();
     for folder in folders {
-        let (run, front) = run_folder::load(folder, Which { minimax: false })?;
+        let run = load_run(folder)?;
+        let front = load_front(folder, &run, false)?;
         let members = front.members.iter().map(|member| {
             let errors =
                 measures(&run).into_iter().map(|measure| member.search_error().of(measure));
@@ -44,9 +48,7 @@ pub(super) fn write(folders: &[PathBuf], path: &Path) -> Result<usize, Failure> 
         same_budget: runs.iter().all(|(run, _)| run.goal.max_cost == first.goal.max_cost),
         groups: groups(runs),
     };
-    let html = page::comparison(&comparison);
-    replace_file(path, html.as_bytes()).map_err(|error| Failure::unwritable(path, error))?;
-    Ok(html.len())
+    Ok(page::comparison(&comparison))
 }
 
 /// What the run made small, and the usual measures.
@@ -61,7 +63,7 @@ fn check_comparable(
     folders: &[PathBuf],
     runs: &[(Run, ComparedRun)],
     first: &Run,
-) -> Result<(), Failure> {
+) -> Result<(), Error> {
     for (folder, (run, _)) in folders.iter().zip(runs) {
         let what = [
             ("data", run.dataset_hash == first.dataset_hash),
@@ -71,10 +73,8 @@ fn check_comparable(
             ("error measure", run.goal.measure == first.goal.measure),
         ];
         if let Some((what, _)) = what.iter().find(|(_, same)| !same) {
-            let (folder, first) = (folder.display(), folders[0].display());
-            return Err(Failure::input(format!(
-                "{folder}: of another {what} than {first}; compare runs of one search problem"
-            )));
+            let [one, other] = [folder, &folders[0]].map(|folder| folder.display().to_string());
+            return Err(Error::Incomparable { one, other, what });
         }
     }
     Ok(())

@@ -1,8 +1,10 @@
-//! Times on the command line: `60s`, `10m`, `1.5h`, `500ms`, or seconds alone.
+//! Values on the command line.
 
+use crate::search::MOST_CYCLES;
 use std::time::Duration;
 
-pub fn parse(text: &str) -> Result<Duration, String> {
+/// A time: `60s`, `10m`, `1.5h`, `500ms`, or seconds alone.
+pub fn duration(text: &str) -> Result<Duration, String> {
     let units = [("ms", 1e-3), ("s", 1.0), ("m", 60.0), ("min", 60.0), ("h", 3600.0)];
     let digits = text.find(|c: char| c.is_ascii_alphabetic()).unwrap_or(text.len());
     let (number, unit) = text.split_at(digits);
@@ -16,6 +18,22 @@ pub fn parse(text: &str) -> Result<Duration, String> {
     }
 }
 
+/// A cost budget.
+pub fn cycles(text: &str) -> Result<f64, String> {
+    match text.parse::<f64>() {
+        Ok(cost) if (0.0..=MOST_CYCLES).contains(&cost) => Ok(cost),
+        _ => {
+            Err(format!("a cost budget is 0 to {MOST_CYCLES} cycles; no formula costs less than 0"))
+        }
+    }
+}
+
+/// A number from 0 to 1.
+pub fn share(text: &str) -> Result<f64, String> {
+    let share = text.parse().ok().filter(|share| (0.0..=1.0).contains(share));
+    share.ok_or_else(|| "a share is from 0 to 1".into())
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -25,10 +43,10 @@ mod tests {
         for (text, seconds) in
             [("60s", 60.0), ("60", 60.0), ("10m", 600.0), ("1.5h", 5400.0), ("500ms", 0.5)]
         {
-            assert_eq!(parse(text), Ok(Duration::from_secs_f64(seconds)));
+            assert_eq!(duration(text), Ok(Duration::from_secs_f64(seconds)));
         }
         for text in ["", "s", "-1s", "1 year", "nan", "1e300h", "infs"] {
-            assert!(parse(text).is_err(), "{text}");
+            assert!(duration(text).is_err(), "{text}");
         }
     }
 }

@@ -1,25 +1,22 @@
-//! What the page of a run's folder shows.
+//! What the page of a run shows.
 
-use super::Gathered;
-use super::timing::{self, Timing};
-use crate::cli::Failure;
+use super::page::{self, Axis, Code, Formula, Page, PageFront, PageSpheres, Table};
+use super::timing::Timing;
+use super::{Error, Report};
 use crate::cost::Profile;
 use crate::dataset::Dataset;
 use crate::emit::{self, Language, Snippet};
 use crate::eval::OutputError;
 use crate::fit::Measure;
-use crate::report::page::{self, Axis, Code, Formula, Page, PageFront, PageSpheres, Table};
 use crate::run::{self, Run};
 use crate::search::{Front, FrontMember, Published};
 use crate::wording::{axis_title, cut};
-use std::path::Path;
 
 /// The page.
-pub(super) fn page(gathered: &Gathered, folder: &Path) -> Result<Page, Failure> {
-    let Gathered { run, front, minimax, dataset, published, trace } = gathered;
+pub(super) fn page(report: &Report) -> Result<Page, Error> {
+    let Report { run, front, minimax, dataset, published, trace, timings } = report;
     let (profiles, own) = profiles(run)?;
-    let timings = timing::load(folder)?;
-    let priced = Priced { run, profiles: &profiles, timings: &timings };
+    let priced = Priced { run, profiles: &profiles, timings };
     let names = run.names();
     let outputs = names.outputs.len();
     Ok(Page {
@@ -47,7 +44,7 @@ pub(super) fn page(gathered: &Gathered, folder: &Path) -> Result<Page, Failure> 
 }
 
 /// The GPUs that come with the program and that of the run, and its place among them.
-fn profiles(run: &Run) -> Result<(Vec<Profile>, usize), Failure> {
+fn profiles(run: &Run) -> Result<(Vec<Profile>, usize), Error> {
     let mut profiles = Profile::built_in().map(Profile::find).collect::<Result<Vec<_>, _>>()?;
     let as_built_in = |profile: &Profile| {
         let same = |own: &Profile| own.fingerprint() == profile.fingerprint();

@@ -1,15 +1,13 @@
 //! The pictures beside a page: the front, maps, spheres, how the search went on.
 
-use super::{Gathered, write_file};
-use crate::cli::render::{Drawing, ROUGHNESSES, SIZE};
-use crate::cli::{Exit, Failure};
+use super::maps::{self, Maps, OutputMaps, Plane};
+use super::plot::{self, FrontPlot, Line, LinePlot, Theme};
+use super::spheres::{Environment, View};
+use super::{Drawing, Error, ROUGHNESSES, Report, SIZE, write_file};
 use crate::dataset::Dataset;
 use crate::deadline::Deadline;
 use crate::eval::{Evaluator, Samples, Tape};
 use crate::program::Program;
-use crate::report::maps::{self, Maps, OutputMaps, Plane};
-use crate::report::plot::{self, FrontPlot, Line, LinePlot, PlotError, Theme};
-use crate::report::spheres::{Environment, View};
 use crate::run::{self, Run, Trace};
 use crate::search::{Front, FrontMember, Published};
 use crate::wording::{axis_title, cycles_text, error_text};
@@ -19,24 +17,20 @@ use std::path::Path;
 const WIDTH: u32 = 1600;
 
 /// Says whether there was time for all.
-pub(super) fn write(
-    gathered: &Gathered,
-    folder: &Path,
-    deadline: &Deadline,
-) -> Result<bool, Failure> {
-    let Gathered { run, front, dataset, published, trace, .. } = gathered;
+pub(super) fn write(report: &Report, folder: &Path, deadline: &Deadline) -> Result<bool, Error> {
+    let Report { run, front, dataset, published, trace, .. } = report;
     write_plots(folder, run, front, published)?;
     let shown = trace.as_ref().filter(|trace| trace.seconds.len() > 1 && !deadline.is_past());
     if let Some(trace) = shown {
-        write_convergence(gathered, trace, folder)?;
+        write_convergence(report, trace, folder)?;
     }
     let (Some(dataset), Some(knee)) = (dataset, front.knee()) else { return Ok(true) };
     if deadline.is_past() {
         return Ok(false);
     }
-    if let Some(maps) = maps(gathered, dataset, knee) {
+    if let Some(maps) = maps(report, dataset, knee) {
         for (file, theme) in [("maps.png", Theme::Light), ("maps-dark.png", Theme::Dark)] {
-            write_file(folder, file, &maps::picture(&maps, theme).map_err(failed)?)?;
+            write_file(folder, file, &maps::picture(&maps, theme)?)?;
         }
     }
     if deadline.is_past() {
@@ -64,7 +58,7 @@ pub fn write_plots(
     run: &Run,
     front: &Front,
     incumbents: &[Published],
-) -> Result<(), Failure> {
+) -> Result<(), Error> {
     let measure = front.measure;
     let error = |member: &FrontMember| member.search_error().of(measure);
     let point = |member: &FrontMember| (member.cost, error(member));
@@ -83,17 +77,13 @@ pub fn write_plots(
         incumbents: &incumbents,
         theme: Theme::Light,
     };
-    write_file(folder, "front.svg", plot::svg(&plot).map_err(failed)?.as_bytes())?;
-    write_file(folder, "front.png", &plot::png(&plot, WIDTH).map_err(failed)?)?;
+    write_file(folder, "front.svg", plot::svg(&plot)?.as_bytes())?;
+    write_file(folder, "front.png", &plot::png(&plot, WIDTH)?)?;
     let dark = FrontPlot { theme: Theme::Dark, ..plot };
-    write_file(folder, "front-dark.svg", plot::svg(&dark).map_err(failed)?.as_bytes())
+    write_file(folder, "front-dark.svg", plot::svg(&dark)?.as_bytes())
 }
 
-fn failed(error: PlotError) -> Failure {
-    Failure::new(Exit::Failed, error)
-}
-
-fn write_convergence(gathered: &Gathered, trace: &Trace, folder: &Path) -> Result<(), Failure> {
+fn write_convergence(report: &Report, trace: &Trace, folder: &Path) -> Result<(), Error> {
     let line = |(cost, errors): (&f64, &Vec<f64>)| Line {
         name: format!("≤ {cost} cycles"),
         points: trace.seconds.iter().copied().zip(errors.iter().copied()).collect(),
@@ -102,7 +92,7 @@ fn write_convergence(gathered: &Gathered, trace: &Trace, folder: &Path) -> Resul
     // As many as there are colours to tell them by.
     let every = trace.costs.len().div_ceil(7).max(1);
     let lines: Vec<Line> = trace.costs.iter().zip(&trace.errors).step_by(every).map(line).collect();
-    let run = &gathered.run;
+    let run = &report.run;
     let measure = run.goal.measure;
     let plot = LinePlot {
         title: &format!("{}: how the search went on", run.name),
@@ -112,19 +102,19 @@ fn write_convergence(gathered: &Gathered, trace: &Trace, folder: &Path) -> Resul
         lines: &lines,
         theme: Theme::Light,
     };
-    write_file(folder, "convergence.png", &plot::lines_png(&plot, WIDTH).map_err(failed)?)?;
-    write_file(folder, "convergence.svg", plot::lines_svg(&plot).map_err(failed)?.as_bytes())?;
+    write_file(folder, "convergence.png", &plot::lines_png(&plot, WIDTH)?)?;
+    write_file(folder, "convergence.svg", plot::lines_svg(&plot)?.as_bytes())?;
     let dark = LinePlot { theme: Theme::Dark, ..plot };
-    let dark = plot::lines_svg(&dark).map_err(failed)?;
+    let dark = plot::lines_svg(&dark)?;
     write_file(folder, "convergence-dark.svg", dark.as_bytes())
 }
 
 /// The most accurate of the published formulas, the knee, and the truth.
-fn maps(gathered: &Gathered, dataset: &Dataset, knee: &FrontMember) -> Option<Maps> {
+fn maps(report: &Report, dataset: &Dataset, knee: &FrontMember) -> Option<Maps> {
     let plane = Plane::of(&dataset.search)?;
     let inputs = dataset.inputs.len();
     let rmse = |known: &&Published| known.member.search_error().rmse;
-    let finite = gathered.published.iter().filter(|known| rmse(known).is_finite());
+    let finite = report.published.iter().filter(|known| rmse(known).is_finite());
     let best = finite.min_by(|a, b| rmse(a).total_cmp(&rmse(b)));
     let described = |name: &str, member: &FrontMember| {
         let (cycles, error) = (cycles_text(member.cost), error_text(member.search_error().rmse));
@@ -149,8 +139,8 @@ fn maps(gathered: &Gathered, dataset: &Dataset, knee: &FrontMember) -> Option<Ma
     };
     let axes = maps::axes(dataset);
     Some(Maps {
-        title: format!("{}: formulas and the truth", gathered.run.name),
-        subtitle: format!("{axes}; cycles on {}, RMSE over all outputs", gathered.run.gpu),
+        title: format!("{}: formulas and the truth", report.run.name),
+        subtitle: format!("{axes}; cycles on {}, RMSE over all outputs", report.run.gpu),
         columns: shown
             .iter()
             .map(|(lines, _)| lines.clone())

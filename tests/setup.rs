@@ -1,0 +1,137 @@
+//! Whatever is asked, and however it is to be searched: it is refused, or a search goes on without a panic.
+
+use lgp::dataset::{Dataset, axis};
+use lgp::fit::Measure;
+use lgp::op::Op;
+use lgp::search::{Front, Goal, Method, Problem, Requirement, Search, Transform};
+use proptest::prelude::*;
+
+fn dataset() -> Dataset {
+    let axes = [axis("x", 0.0..=1.0), axis("u", -1.0..=2.0)];
+    let mut data = Dataset::sampled(axes, ["y", "z"], |[x, u]| [x * u + 0.3, (3.0 * x).sin()]);
+    let data = data.as_mut().unwrap();
+    for split in [&mut data.search, &mut data.validation] {
+        split.columns.iter_mut().for_each(|column| column.truncate(40));
+        split.grid.clear();
+    }
+    data.clone()
+}
+
+/// Numbers that a caller may well give, and some that nobody means.
+fn number() -> impl Strategy<Value = f64> {
+    prop_oneof![
+        4 => 0.0..50.0f64,
+        1 => prop::sample::select(vec![
+            f64::NAN, f64::INFINITY, f64::NEG_INFINITY, -1.0, -0.0, 1e300, 1000.0, 1e-300,
+        ]),
+    ]
+}
+
+fn count() -> impl Strategy<Value = usize> {
+    prop_oneof![6 => 0..6usize, 1 => prop::sample::select(vec![256, 257, 100_000, usize::MAX])]
+}
+
+fn requirement() -> impl Strategy<Value = Requirement> {
+    let place = || 0..4u16;
+    let output = || prop::option::of(0..4u16);
+    prop_oneof![
+        (output(), number(), number()).prop_map(|(output, low, high)| Requirement::Range {
+            output,
+            low: low as f32,
+            high: high as f32
+        }),
+        (output(), place(), any::<bool>())
+            .prop_map(|(output, input, rising)| Requirement::Monotone { output, input, rising }),
+        (output(), place()).prop_map(|(output, input)| Requirement::Ends { output, input }),
+        prop::sample::select(Op::ALL.to_vec()).prop_map(Requirement::Operation),
+        place().prop_map(Requirement::Input),
+        Just(Requirement::Finite),
+        number().prop_map(|error| Requirement::Half { error }),
+    ]
+}
+
+fn goal() -> impl Strategy<Value = Goal> {
+    let transform = prop::sample::select(vec![
+        None,
+        Some(Transform::Rcp),
+        Some(Transform::Log2),
+        Some(Transform::Sqrt),
+    ]);
+    let measure = prop::sample::select(Measure::ALL.to_vec());
+    let requirements = prop::collection::vec(requirement(), 0..3);
+    (measure, requirements, prop::collection::vec(transform, 0..4), number()).prop_map(
+        |(measure, requirements, transforms, max_cost)| Goal {
+            measure,
+            requirements,
+            transforms,
+            max_cost,
+        },
+    )
+}
+
+fn method() -> impl Strategy<Value = Method> {
+    let share = prop_oneof![3 => 0.0..=1.0f64, 1 => number()];
+    (any::<u64>(), count(), count(), share, count(), 0..4u64, count()).prop_map(
+        |(seed, islands, candidates, immigrants, bucket_size, migration_interval, subset)| Method {
+            seed,
+            islands,
+            candidates,
+            immigrants,
+            bucket_size,
+            migration_interval,
+            subset,
+        },
+    )
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig { cases: 400, failure_persistence: None, ..Default::default() })]
+
+    #[test]
+    fn what_cannot_be_meant_is_refused(goal in goal(), method in method()) {
+        let Ok(problem) = Problem::of(dataset()).goal(goal).build() else { return Ok(()) };
+        // Such as are allowed and take long.
+        let is_long = method.islands > 8 || method.candidates > 8;
+        let Ok(mut search) = Search::new(problem, method) else { return Ok(()) };
+        if !is_long {
+            search.advance();
+            let front = Front::of(&search);
+            let most = search.problem().goal().max_cost;
+            prop_assert!(front.members.iter().all(|member| member.cost <= most));
+        }
+    }
+}
+
+#[test]
+fn what_can_be_meant_is_not_refused() {
+    let goals = [
+        Goal { max_cost: 0.0, ..Goal::default() },
+        Goal { max_cost: 1000.0, transforms: vec![Some(Transform::Rcp)], ..Goal::default() },
+        Goal {
+            measure: Measure::Relative,
+            requirements: vec![Requirement::Finite],
+            ..Goal::default()
+        },
+    ];
+    for goal in goals {
+        let problem = Problem::of(dataset()).goal(goal).build().unwrap();
+        let method =
+            Method { islands: 1, candidates: 1, subset: 1, bucket_size: 1, ..Method::default() };
+        Search::new(problem, method).unwrap().advance();
+    }
+}
+
+#[test]
+fn a_refusal_says_which_field_and_why() {
+    let refused = |goal: Goal| Problem::of(dataset()).goal(goal).build().unwrap_err().to_string();
+    let message = refused(Goal { max_cost: f64::NAN, ..Goal::default() });
+    assert!(message.contains("`max_cost` is NaN"), "{message}");
+    let message = refused(Goal { measure: Measure::Weighted, ..Goal::default() });
+    assert!(message.contains("no weights"), "{message}");
+    let requirements = vec![Requirement::Ends { output: None, input: 0 }];
+    let message = refused(Goal { measure: Measure::Relative, requirements, ..Goal::default() });
+    assert!(message.contains("not relative"), "{message}");
+    let problem = Problem::of(dataset()).build().unwrap();
+    let message = Search::new(problem, Method { subset: 0, ..Method::default() }).unwrap_err();
+    assert!(message.to_string().contains("`subset` is 0"), "{message}");
+}
