@@ -24,17 +24,26 @@ impl Journal {
         Journal { trace: Vec::new(), earlier: trace, census }
     }
 
-    /// Notes where the search stands, unless that was done just now; says whether.
-    pub fn note(&mut self, point: &TracePoint, search: &Search, names: &Names) -> bool {
+    /// Notes where the search stands, unless that was done just now.
+    pub fn note(&mut self, point: &TracePoint, search: &Search, names: &Names) {
         let due = |last: &TracePoint| point.seconds >= last.seconds * TRACE_RATIO;
-        if !self.trace.last().is_none_or(due) {
-            return false;
+        if self.trace.last().is_none_or(due) {
+            self.note_anyway(point, search, names);
         }
+    }
+
+    /// Notes where the search ends, unless nothing has been considered since.
+    pub fn note_the_end(&mut self, point: &TracePoint, search: &Search, names: &Names) {
+        if self.trace.last().is_some_and(|last| last.counts != point.counts) {
+            self.note_anyway(point, search, names);
+        }
+    }
+
+    fn note_anyway(&mut self, point: &TracePoint, search: &Search, names: &Names) {
         for member in search.archive().members() {
             self.census.count(&search.problem().natural(&member.draft), names, point.seconds);
         }
         self.trace.push(point.clone());
-        true
     }
 
     /// The text of `trace.csv`.

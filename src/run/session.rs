@@ -346,6 +346,8 @@ impl Session {
     /// each phase has come; of its end by nothing, alone.
     pub fn finish(&mut self, hear: &(dyn Fn(Phase, Option<f64>) + Sync)) -> Outcome {
         self.bring_up_to_date();
+        let end = TracePoint::of(&self.search, self.run.seconds);
+        self.journal.note_the_end(&end, &self.search, &self.run.names());
         let mut times =
             self.times.take().unwrap_or_else(|| Timetable::new(self.start, None, 0, &self.stop));
         times.begin_finishing();
