@@ -2,6 +2,7 @@
 
 use crate::program::{Constants, Draft, structural_hash};
 use serde::{Deserialize, Serialize};
+use std::cmp::Ordering;
 
 /// A program on the archive's axes.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -28,6 +29,27 @@ impl Member {
                 || self.loss < other.loss
                 || self.tie_break() <= other.tie_break())
     }
+}
+
+/// By rising cost, those that err less than every one that costs no more, of equals the first by `ties`; `place` gives cost
+/// and error.
+pub(crate) fn undominated<T>(
+    mut all: Vec<T>,
+    place: impl Fn(&T) -> (f64, f64),
+    ties: impl Fn(&T, &T) -> Ordering,
+) -> Vec<T> {
+    all.sort_by(|a, b| {
+        let ((cost, error), (other_cost, other_error)) = (place(a), place(b));
+        cost.total_cmp(&other_cost).then(error.total_cmp(&other_error)).then_with(|| ties(a, b))
+    });
+    let mut least = f64::INFINITY;
+    all.retain(|one| {
+        let (_, error) = place(one);
+        let kept = error < least;
+        least = least.min(error);
+        kept
+    });
+    all
 }
 
 /// A loss smaller than the reference by more than this counts as zero.

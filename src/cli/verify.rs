@@ -2,8 +2,7 @@ use super::{Common, Failure};
 use crate::dataset::Dataset;
 use crate::emit::{Language, MAX_SNIPPET, ReadBack, Stated, StatedError, read_back};
 use crate::eval::{Evaluator, OutputError, Samples, Score, Tape};
-use crate::op::Op;
-use crate::program::{Arg, Names, Program};
+use crate::program::{Names, Program};
 use crate::run::Subject;
 use crate::suggest::did_you_mean;
 use crate::wording::error_text;
@@ -212,32 +211,6 @@ fn mismatch(code: &ReadBack, stated: &Stated, dataset: &Dataset, names: &Names) 
     ))
 }
 
-/// The program with each `mad` as a product and a sum, as GLSL has it.
-fn without_mad(program: &Program) -> Program {
-    let mut draft = program.clone().into_draft();
-    let mut moved = Vec::with_capacity(draft.instrs.len());
-    let instrs = std::mem::take(&mut draft.instrs);
-    let earlier = |arg: Arg, moved: &[Arg]| match arg {
-        Arg::Result(i) => moved[usize::from(i)],
-        other => other,
-    };
-    for instr in instrs {
-        let args: Vec<Arg> = instr.args().iter().map(|&arg| earlier(arg, &moved)).collect();
-        moved.push(match instr.op() {
-            Op::Mad => {
-                let product = draft.push(Op::Mul, &args[..2]);
-                draft.push(Op::Add, &[product, args[2]])
-            }
-            op => draft.push(op, &args),
-        });
-    }
-    for output in &mut draft.outputs {
-        *output = earlier(*output, &moved);
-    }
-    // Only more instructions than a program can hold are refused.
-    Program::verify(draft).unwrap_or_else(|_| program.clone())
-}
-
 /// Whether two programs compute the same on the data, bit for bit; if not, where not.
 fn difference(
     program: &Program,
@@ -249,7 +222,7 @@ fn difference(
     for split in [&dataset.search, &dataset.validation] {
         let samples = Samples::new(split, names.inputs.len());
         let [found, expected] =
-            [program, formula].map(|p| evaluator.outputs(&Tape::new(&without_mad(p)), &samples));
+            [program, formula].map(|p| evaluator.outputs(&Tape::new(&p.unfused()), &samples));
         for (name, (found, expected)) in names.outputs.iter().zip(found.iter().zip(&expected)) {
             let differs =
                 |(_, (f, e)): &(usize, (&f32, &f32))| !(f == e || f.is_nan() && e.is_nan());

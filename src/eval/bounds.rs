@@ -1,5 +1,8 @@
 //! Programs on boxes: bounds of every value that `f32` and `f64` evaluation can give there.
 
+// A new operation must not get bounds that nobody looked at.
+#![deny(clippy::wildcard_enum_match_arm)]
+
 use super::Arithmetic;
 use crate::num::{Interval, enclose};
 use crate::op::{MAX_ARITY, Op};
@@ -9,9 +12,6 @@ use std::f64::consts::{FRAC_PI_2, PI, TAU};
 /// argument has to do with itself is not known).
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Bounds;
-
-/// Arguments of sin, cos and tan up to which their stated errors hold.
-const ACCURATE: f32 = 1e4;
 
 impl Arithmetic for Bounds {
     type Value = Interval;
@@ -26,6 +26,8 @@ impl Arithmetic for Bounds {
             return Interval::NAN;
         }
         let [a, b, c, d] = arguments;
+        // What the interpreter is off by, over the rounding that all bounds allow for.
+        let steps = op.accuracy().steps();
         match op {
             Op::Add => a.plus(b),
             Op::Sub => a.plus(b.negated()),
@@ -42,17 +44,17 @@ impl Arithmetic for Bounds {
             Op::Rsqrt => reciprocal(square_root(a)),
             Op::Exp2 => exp2(a),
             Op::Log2 => log2(a),
-            Op::Exp => at_least_zero(a.map_increasing(f64::exp, 2)),
-            Op::Log => positive(a, |a| a.map_increasing(f64::ln, 2)),
+            Op::Exp => at_least_zero(a.map_increasing(f64::exp, steps)),
+            Op::Log => positive(a, |a| a.map_increasing(f64::ln, steps)),
             Op::Pow => exp2(b.times(log2(a))).or_nan_if(a.may_be_nan()),
-            Op::Sin => wave(a, f64::sin, FRAC_PI_2),
-            Op::Cos => wave(a, f64::cos, 0.0),
+            Op::Sin => wave(op, a, f64::sin, FRAC_PI_2),
+            Op::Cos => wave(op, a, f64::cos, 0.0),
             Op::Tan => tangent(a),
-            Op::Asin => unit(a, |a| a.map_increasing(f64::asin, 3)),
-            Op::Acos => unit(a, |a| a.negated().map_increasing(|x| (-x).acos(), 3)),
-            Op::Atan => a.map_increasing(f64::atan, 3),
+            Op::Asin => unit(a, |a| a.map_increasing(f64::asin, steps)),
+            Op::Acos => unit(a, |a| a.negated().map_increasing(|x| (-x).acos(), steps)),
+            Op::Atan => a.map_increasing(f64::atan, steps),
             Op::Atan2 => angle(a, b),
-            Op::Tanh => a.map_increasing(f64::tanh, 3).clamped(-1.0, 1.0),
+            Op::Tanh => a.map_increasing(f64::tanh, steps).clamped(-1.0, 1.0),
             Op::Lerp => c.times_plus(b.plus(a.negated()), a),
             Op::Step => step(a, b),
             Op::Select => select(a, b, c, d),
@@ -90,21 +92,21 @@ fn reciprocal(a: Interval) -> Interval {
 }
 
 fn square_root(a: Interval) -> Interval {
-    positive(a, |a| at_least_zero(a.map_increasing(f64::sqrt, 0)))
+    positive(a, |a| at_least_zero(a.map_increasing(f64::sqrt, Op::Sqrt.accuracy().steps())))
 }
 
 fn exp2(a: Interval) -> Interval {
-    within(a, |a| at_least_zero(a.map_increasing(f64::exp2, 1)))
+    within(a, |a| at_least_zero(a.map_increasing(f64::exp2, Op::Exp2.accuracy().steps())))
 }
 
 fn log2(a: Interval) -> Interval {
-    positive(a, |a| a.map_increasing(f64::log2, 2))
+    positive(a, |a| a.map_increasing(f64::log2, Op::Log2.accuracy().steps()))
 }
 
 /// A sine that has a maximum at `crest`.
-fn wave(a: Interval, f: impl Fn(f64) -> f64, crest: f64) -> Interval {
+fn wave(op: Op, a: Interval, f: impl Fn(f64) -> f64, crest: f64) -> Interval {
     let nan = a.may_be_nan() || a.may_be_infinite();
-    if a.abs().high() > ACCURATE {
+    if a.abs().high() > op.accuracy().up_to() {
         // Far out an argument's quadrant is off by one at most, and then zero.
         return Interval::new(-1.01, 1.01).or_nan_if(nan);
     }
@@ -112,30 +114,31 @@ fn wave(a: Interval, f: impl Fn(f64) -> f64, crest: f64) -> Interval {
     let passes = |at: f64| ((low - at) / TAU - 1e-9).ceil() <= (high - at) / TAU + 1e-9;
     let above = if passes(crest) { 1.0 } else { f(low).max(f(high)) };
     let below = if passes(crest + PI) { -1.0 } else { f(low).min(f(high)) };
-    enclose(below, above).widened(2).or_nan_if(nan)
+    enclose(below, above).widened(op.accuracy().steps()).or_nan_if(nan)
 }
 
 fn tangent(a: Interval) -> Interval {
-    let far = a.abs().high() > ACCURATE;
+    let accuracy = Op::Tan.accuracy();
+    let far = a.abs().high() > accuracy.up_to();
     let branch = |x: f32| ((f64::from(x) + FRAC_PI_2) / PI).floor();
     if far || branch(a.low()) != branch(a.high()) {
         return Interval::LINE.or_nan_if(far || a.may_be_nan());
     }
-    a.map_increasing(f64::tan, 4)
+    a.map_increasing(f64::tan, accuracy.steps())
 }
 
 /// The angle of a box: that of a corner is extreme, unless the cut lies within.
 fn angle(y: Interval, x: Interval) -> Interval {
     let nan = y.may_be_nan() || x.may_be_nan();
     if y.contains(0.0) && x.low() <= 0.0 {
-        return enclose(-PI, PI).widened(4).or_nan_if(nan);
+        return enclose(-PI, PI).widened(Op::Atan2.accuracy().steps()).or_nan_if(nan);
     }
     let corners =
         [(y.low(), x.low()), (y.low(), x.high()), (y.high(), x.low()), (y.high(), x.high())];
     let angles = corners.map(|(y, x)| f64::from(y).atan2(x.into()));
     let low = angles.into_iter().fold(f64::INFINITY, f64::min);
     let high = angles.into_iter().fold(f64::NEG_INFINITY, f64::max);
-    enclose(low, high).widened(4).or_nan_if(nan)
+    enclose(low, high).widened(Op::Atan2.accuracy().steps()).or_nan_if(nan)
 }
 
 fn step(edge: Interval, x: Interval) -> Interval {

@@ -162,7 +162,7 @@ impl<'a> Chunk<'a> {
 }
 
 macro_rules! define_kernels {
-    ($($(#[$doc:meta])* $op:ident $name:literal ($($arg:ident),*) [$($property:ident)*] $hazard:ident = $meaning:expr;)*) => {
+    ($($(#[$doc:meta])* $op:ident $name:literal ($($arg:ident),*) [$($property:ident)*] $family:ident $accuracy:tt = $meaning:expr;)*) => {
         impl Chunk<'_> {
             /// # Safety
             /// The processor has `L`, whose width is [`BLOCK`], and the step is one of the tape's.

@@ -3,7 +3,8 @@
 //! Each is branch-free: an argument reduction, a polynomial (near-minimax in the
 //! relative error of the result, its coefficients rounded to `f32` one after the other
 //! and the rest refitted), and the special cases by selection. The stated errors are
-//! measured over all 2³² arguments (or, for two arguments, a dense sample) against `f64`.
+//! measured over all 2³² arguments (or, for two arguments, a dense sample) against `f64`. What bounds and
+//! proofs rely on is `op::Op::accuracy`, never less than what is measured.
 
 use super::Lanes;
 use std::f32::consts::{FRAC_PI_2, LN_2, LOG2_E, PI};

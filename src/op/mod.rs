@@ -1,106 +1,114 @@
 //! The one table of operations, and their reference semantics.
 //!
-//! Everything else that is known of an operation (bulk kernel, derivative, cost,
-//! spelling in each language) is a `match` or a table keyed by [`Op`], complete by
-//! construction or by test.
+//! A row says what an operation computes, how accurately, and what kind of function it is; all that
+//! bounds, proofs and tests need of these is read here. Everything else that is known of an operation
+//! (bulk kernel, derivative, cost, spelling in each language) is a `match` or a table keyed by [`Op`],
+//! complete by construction or by test.
+
+mod accuracy;
+
+pub use accuracy::{Accuracy, Tolerance};
 
 use crate::num::{Lanes, math};
+use accuracy::{EXACT, IN_STEPS, within, within_ulps as ulps};
 use std::fmt;
 
-/// What can go wrong in an operation although its arguments are finite.
+/// What an operation is made of, roughly.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Hazard {
-    /// Nothing but overflow to infinity.
-    Overflow,
-    /// Nothing at all: finite arguments give a finite result.
-    None,
-    /// Not finite where a divisor is zero.
-    ZeroDivisor,
-    /// NaN where an argument is negative.
-    Negative,
-    /// NaN where an argument is negative, infinite at zero.
-    NegativeOrZero,
-    /// NaN outside [−1, 1].
-    OutsideUnit,
+pub enum Family {
+    /// Sums, products, signs, and mixtures of them.
+    Arithmetic,
+    /// A quotient of two, or the inverse of one.
+    Quotient,
+    /// Square roots and their inverses.
+    Root,
+    /// Exponentials, logarithms, and what is made of them.
+    Exponential,
+    /// Trigonometric functions and their inverses.
+    Trigonometric,
+    /// Choices between arguments, roundings to whole numbers, signs as numbers.
+    Choice,
 }
 
-/// Calls `$then! { rows }` with the table: variant, name in formula text, arguments,
+/// Calls `$then! { rows }` with the table: variant, name in formula text, arguments; then
 /// `commutes` where the first two arguments may be swapped, `piecewise` where the
-/// function has a kink or a jump, hazard, meaning over [`Lanes`].
+/// function has a kink or a jump, `needs_positive` where it is NaN of a negative first argument; family;
+/// the accuracy of the interpreter, which `num::math` explains and measures, and the accuracy that GPUs owe
+/// (see [`Op::gpu_accuracy`]); meaning over [`Lanes`].
 macro_rules! operations {
     ($then:ident) => {
         $then! {
             /// `a + b`
-            Add "add" (a, b) [commutes] Overflow = a + b;
+            Add "add" (a, b) [commutes] Arithmetic (ulps(0.5), ulps(1.0)) = a + b;
             /// `a − b`
-            Sub "sub" (a, b) [] Overflow = a - b;
+            Sub "sub" (a, b) [] Arithmetic (ulps(0.5), ulps(1.0)) = a - b;
             /// `a · b`
-            Mul "mul" (a, b) [commutes] Overflow = a * b;
+            Mul "mul" (a, b) [commutes] Arithmetic (ulps(0.5), ulps(1.0)) = a * b;
             /// `a / b`
-            Div "div" (a, b) [] ZeroDivisor = a / b;
+            Div "div" (a, b) [] Quotient (ulps(0.5), ulps(2.5)) = a / b;
             /// `−a`
-            Neg "neg" (a) [] None = a.neg();
+            Neg "neg" (a) [] Arithmetic (EXACT, EXACT) = a.neg();
             /// `|a|`
-            Abs "abs" (a) [piecewise] None = a.abs();
+            Abs "abs" (a) [piecewise] Choice (EXACT, EXACT) = a.abs();
             /// The smaller; NaN if either is.
-            Min "min" (a, b) [commutes piecewise] None = a.minimum(b);
+            Min "min" (a, b) [commutes piecewise] Choice (EXACT, EXACT) = a.minimum(b);
             /// The larger; NaN if either is.
-            Max "max" (a, b) [commutes piecewise] None = a.maximum(b);
+            Max "max" (a, b) [commutes piecewise] Choice (EXACT, EXACT) = a.maximum(b);
             /// `min(max(a, 0), 1)`
-            Saturate "saturate" (a) [piecewise] None = math::saturate(a);
+            Saturate "saturate" (a) [piecewise] Choice (EXACT, EXACT) = math::saturate(a);
             /// `a · b + c`, rounded once
-            Mad "mad" (a, b, c) [commutes] Overflow = a.fma(b, c);
+            Mad "mad" (a, b, c) [commutes] Arithmetic (ulps(0.5), ulps(1.0)) = a.fma(b, c);
             /// `1 / a`
-            Rcp "rcp" (a) [] ZeroDivisor = math::rcp(a);
+            Rcp "rcp" (a) [] Quotient (ulps(0.5), ulps(2.5)) = math::rcp(a);
             /// `√a`
-            Sqrt "sqrt" (a) [] Negative = a.sqrt();
+            Sqrt "sqrt" (a) [needs_positive] Root (ulps(0.5), ulps(4.6)) = a.sqrt();
             /// `1 / √a`
-            Rsqrt "rsqrt" (a) [] NegativeOrZero = math::rsqrt(a);
+            Rsqrt "rsqrt" (a) [needs_positive] Root (ulps(1.5), ulps(2.0)) = math::rsqrt(a);
             /// `2^a`
-            Exp2 "exp2" (a) [] Overflow = math::exp2(a);
+            Exp2 "exp2" (a) [] Exponential (ulps(1.0), within(POWER)) = math::exp2(a);
             /// `log₂ a`
-            Log2 "log2" (a) [] NegativeOrZero = math::log2(a);
+            Log2 "log2" (a) [needs_positive] Exponential (ulps(2.0), within(LOGARITHM)) = math::log2(a);
             /// `e^a`
-            Exp "exp" (a) [] Overflow = math::exp(a);
+            Exp "exp" (a) [] Exponential (ulps(2.0), within(POWER)) = math::exp(a);
             /// `ln a`
-            Log "log" (a) [] NegativeOrZero = math::log(a);
+            Log "log" (a) [needs_positive] Exponential (ulps(2.0), within(LOGARITHM)) = math::log(a);
             /// `exp2(b · log2(a))`
-            Pow "pow" (a, b) [] NegativeOrZero = math::pow(a, b);
+            Pow "pow" (a, b) [needs_positive] Exponential (IN_STEPS, IN_STEPS) = math::pow(a, b);
             /// `sin a`, radians
-            Sin "sin" (a) [] None = math::sin(a);
+            Sin "sin" (a) [] Trigonometric (within(WAVE), within(GPU_WAVE)) = math::sin(a);
             /// `cos a`, radians
-            Cos "cos" (a) [] None = math::cos(a);
+            Cos "cos" (a) [] Trigonometric (within(WAVE), within(GPU_WAVE)) = math::cos(a);
             /// `tan a`, radians
-            Tan "tan" (a) [] ZeroDivisor = math::tan(a);
+            Tan "tan" (a) [] Trigonometric (within(WAVES_QUOTIENT), IN_STEPS) = math::tan(a);
             /// `asin a`
-            Asin "asin" (a) [] OutsideUnit = math::asin(a);
+            Asin "asin" (a) [] Trigonometric (ulps(3.0), within(ASIN)) = math::asin(a);
             /// `acos a`
-            Acos "acos" (a) [] OutsideUnit = math::acos(a);
+            Acos "acos" (a) [] Trigonometric (ulps(3.0), within(ACOS)) = math::acos(a);
             /// `atan a`
-            Atan "atan" (a) [] None = math::atan(a);
+            Atan "atan" (a) [] Trigonometric (ulps(3.0), ulps(4096.0)) = math::atan(a);
             /// The angle of the point (b, a)
-            Atan2 "atan2" (a, b) [piecewise] None = math::atan2(a, b);
+            Atan2 "atan2" (a, b) [piecewise] Trigonometric (ulps(4.0), ulps(4096.0)) = math::atan2(a, b);
             /// `tanh a`
-            Tanh "tanh" (a) [] None = math::tanh(a);
+            Tanh "tanh" (a) [] Exponential (ulps(3.0), within(TANH)) = math::tanh(a);
             /// `a + c (b − a)`
-            Lerp "lerp" (a, b, c) [] Overflow = math::lerp(a, b, c);
+            Lerp "lerp" (a, b, c) [] Arithmetic (IN_STEPS, IN_STEPS) = math::lerp(a, b, c);
             /// 1 where `b ≥ a`, else 0
-            Step "step" (a, b) [piecewise] None = math::step(a, b);
+            Step "step" (a, b) [piecewise] Choice (EXACT, EXACT) = math::step(a, b);
             /// `c` where `a < b`, else `d`
-            Select "select" (a, b, c, d) [piecewise] None = L::select(a.lt(b), c, d);
+            Select "select" (a, b, c, d) [piecewise] Choice (EXACT, EXACT) = L::select(a.lt(b), c, d);
             /// `⌊a⌋`
-            Floor "floor" (a) [piecewise] None = a.floor();
+            Floor "floor" (a) [piecewise] Choice (EXACT, EXACT) = a.floor();
             /// `a − ⌊a⌋`
-            Fract "fract" (a) [piecewise] None = math::fract(a);
+            Fract "fract" (a) [piecewise] Choice (ulps(0.5), ulps(1.0)) = math::fract(a);
             /// −1, 0 or 1
-            Sign "sign" (a) [piecewise] None = math::sign(a);
+            Sign "sign" (a) [piecewise] Choice (EXACT, EXACT) = math::sign(a);
         }
     };
 }
 pub(crate) use operations;
 
 macro_rules! define_operations {
-    ($($(#[$doc:meta])* $op:ident $name:literal ($($arg:ident),*) [$($property:ident)*] $hazard:ident = $meaning:expr;)*) => {
+    ($($(#[$doc:meta])* $op:ident $name:literal ($($arg:ident),*) [$($property:ident)*] $family:ident ($interpreter:expr, $gpu:expr) = $meaning:expr;)*) => {
         /// An operation: a row of the table.
         #[derive(
             Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, serde::Serialize, serde::Deserialize,
@@ -122,19 +130,26 @@ macro_rules! define_operations {
                 match self { $(Op::$op => [$(stringify!($arg)),*].len()),* }
             }
 
-            /// What can go wrong on finite arguments.
-            pub const fn hazard(self) -> Hazard {
-                match self { $(Op::$op => Hazard::$hazard),* }
+            const fn properties(self) -> Properties {
+                match self { $(Op::$op => Properties { $($property: true,)* ..Properties::NONE }),* }
             }
 
-            /// Whether the first two arguments may be swapped.
-            pub const fn commutes(self) -> bool {
-                match self { $(Op::$op => has_property(&[$(stringify!($property)),*], b'c')),* }
+            /// What kind of function it is.
+            pub const fn family(self) -> Family {
+                match self { $(Op::$op => Family::$family),* }
             }
 
-            /// Whether the function has a kink or a jump.
-            pub const fn is_piecewise(self) -> bool {
-                match self { $(Op::$op => has_property(&[$(stringify!($property)),*], b'p')),* }
+            /// How far the interpreter's results may be off those of the function; measured in the
+            /// conformance tests.
+            pub const fn accuracy(self) -> Accuracy {
+                match self { $(Op::$op => $interpreter),* }
+            }
+
+            /// How far results may be off on a GPU that keeps to WGSL's and Vulkan's specifications: "Floating
+            /// Point Accuracy" of the one, "Precision and Operation of SPIR-V Instructions" of the other, and
+            /// where they define an operation by others, what follows.
+            pub const fn gpu_accuracy(self) -> Accuracy {
+                match self { $(Op::$op => $gpu),* }
             }
 
             /// The reference semantics; arguments beyond the arity are not looked at.
@@ -153,17 +168,45 @@ macro_rules! define_operations {
 }
 operations!(define_operations);
 
-/// Whether one of the words of a table row starts with `initial`.
-const fn has_property(words: &[&str], initial: u8) -> bool {
-    let mut i = 0;
-    while i < words.len() {
-        if words[i].as_bytes()[0] == initial {
-            return true;
-        }
-        i += 1;
-    }
-    false
+/// A row's words in brackets.
+struct Properties {
+    commutes: bool,
+    piecewise: bool,
+    needs_positive: bool,
 }
+
+impl Properties {
+    const NONE: Properties =
+        Properties { commutes: false, piecewise: false, needs_positive: false };
+}
+
+/// exp2 as WGSL has it: 3 + 2|x| ulp. No finite result's argument is beyond ±200.
+const POWER: Tolerance =
+    Tolerance { ulps_per_unit: 2.0, most_units: 200.0, ..Tolerance::of_ulps(3.0) };
+
+/// An absolute error between 0.5 and 2, where the result is near zero, and 3 ulp elsewhere.
+const LOGARITHM: Tolerance = Tolerance {
+    absolute: 1.0 / (1 << 21) as f64,
+    absolute_within: [0.5, 2.0],
+    ..Tolerance::of_ulps(3.0)
+};
+
+/// The interpreter's reduction of angles keeps its digits up to 10⁴.
+const WAVE: Tolerance = Tolerance { up_to: 1e4, ..Tolerance::of_ulps(2.0) };
+const WAVES_QUOTIENT: Tolerance = Tolerance { up_to: 1e4, ..Tolerance::of_ulps(4.0) };
+
+/// Beyond ±π the specifications promise nothing.
+const GPU_WAVE: Tolerance =
+    Tolerance { up_to: std::f32::consts::PI, ..Tolerance::of_size(1.0 / (1 << 11) as f64) };
+
+/// By way of atan2(x, sqrt(1 − x²)), whose root may be off by 2.5e-4 near x = 1; with 4096 ulp of an angle up to
+/// π/2, and up to π.
+const ASIN: Tolerance = Tolerance::of_size(1.1e-3);
+const ACOS: Tolerance = Tolerance::of_size(1.8e-3);
+
+/// By way of sinh(x)/cosh(x): four exponentials and a quotient. Beyond ±89 both are infinite.
+const TANH: Tolerance =
+    Tolerance { ulps_per_unit: 4.0, most_units: 89.0, absolute: 1e-5, ..Tolerance::of_ulps(13.0) };
 
 /// The most arguments an operation has.
 pub const MAX_ARITY: usize = 4;
@@ -172,6 +215,21 @@ impl Op {
     /// The operation of this name.
     pub fn from_name(name: &str) -> Option<Op> {
         Op::ALL.iter().copied().find(|op| op.name() == name)
+    }
+
+    /// Whether the first two arguments may be swapped.
+    pub const fn commutes(self) -> bool {
+        self.properties().commutes
+    }
+
+    /// Whether the function has a kink or a jump.
+    pub const fn is_piecewise(self) -> bool {
+        self.properties().piecewise
+    }
+
+    /// Whether it is NaN of a negative first argument.
+    pub const fn needs_positive(self) -> bool {
+        self.properties().needs_positive
     }
 }
 
@@ -194,6 +252,31 @@ mod tests {
         }
         assert_eq!(Op::Select.arity(), 4);
         assert!(Op::Min.commutes() && Op::Min.is_piecewise() && !Op::Sub.commutes());
+    }
+
+    #[test]
+    fn what_needs_a_positive_argument_is_nan_of_negative_ones() {
+        for &op in Op::ALL {
+            let negative = [-0.25, -0.5, -0.75].map(|x: f32| op.apply([x, 0.5, 0.25, 0.125]));
+            assert_eq!(op.needs_positive(), negative.iter().all(|y| y.is_nan()), "{op}");
+        }
+    }
+
+    #[test]
+    fn no_gpu_owes_more_than_the_interpreter_gives() {
+        for &op in Op::ALL {
+            if let (Accuracy::Within(own), Accuracy::Within(gpu)) =
+                (op.accuracy(), op.gpu_accuracy())
+            {
+                assert!(own.absolute <= gpu.absolute && own.up_to >= gpu.up_to, "{op}");
+                assert!(own.ulps <= gpu.ulps || gpu.absolute > 0.0, "{op}");
+            }
+            assert_eq!(
+                op.accuracy() == Accuracy::Exact,
+                op.gpu_accuracy() == Accuracy::Exact,
+                "{op}"
+            );
+        }
     }
 
     #[test]

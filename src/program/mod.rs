@@ -7,6 +7,7 @@
 
 mod effective;
 mod hash;
+mod rewrite;
 mod text;
 
 pub use effective::{effective, effective_into, use_counts};

@@ -44,7 +44,7 @@ impl View<'_> {
                 }
             });
         }
-        let values = append(&mut draft, program, &arguments);
+        let values = draft.append(program, &arguments);
         // An argument that stands for an output that the formula lacks.
         let lacking = Arg::Input(u16::MAX);
         for column in &self.whole.outputs {
@@ -56,34 +56,13 @@ impl View<'_> {
         }
         for name in wanted {
             let (_, expression) = self.outputs.iter().find(|(output, _)| output == name)?;
-            let value = append(&mut draft, expression, &arguments);
+            let value = draft.append(expression, &arguments);
             draft.outputs.extend(value);
         }
         let reads = draft.instrs.iter().flat_map(|instr| instr.args()).chain(&draft.outputs);
         let complete = !reads.into_iter().any(|&arg| arg == lacking);
         complete.then_some(draft)
     }
-}
-
-/// Adds another draft's instructions, its inputs being some of this one's values; gives what its
-/// outputs have become.
-///
-/// # Panics
-/// If `inputs` has fewer entries than `other` has inputs.
-pub(super) fn append(draft: &mut Draft, other: &Draft, inputs: &[Arg]) -> Vec<Arg> {
-    let (first, constants) = (draft.instrs.len() as u16, draft.consts.len() as u16);
-    draft.consts.extend_from_slice(&other.consts);
-    let moved = |arg: Arg| match arg {
-        Arg::Input(i) => inputs[usize::from(i)],
-        Arg::Const(i) => Arg::Const(i + constants),
-        Arg::Result(i) => Arg::Result(i + first),
-    };
-    for instr in &other.instrs {
-        let mut instr = *instr;
-        instr.args_mut().iter_mut().for_each(|arg| *arg = moved(*arg));
-        draft.instrs.push(instr);
-    }
-    other.outputs.iter().map(|&output| moved(output)).collect()
 }
 
 /// A draft with constants folded, as any compiler would; nothing where it is no program.

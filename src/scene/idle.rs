@@ -5,7 +5,7 @@ use crate::dataset::{Dataset, Split};
 use crate::eval::{Evaluator, Samples, Tape};
 use crate::num::{Interval, enclose};
 use crate::op::Op;
-use crate::program::{Arg, Draft, Program, effective};
+use crate::program::{Arg, Program, effective};
 use crate::stability::{Bound, Claim, Limits, Rounding, Status, prove};
 use serde::{Deserialize, Serialize};
 
@@ -145,18 +145,12 @@ fn loses_finiteness(before: &Program, after: &Program, domain: &[Interval]) -> b
 
 /// The program with an instruction's result replaced.
 fn without(program: &Program, at: usize, value: Value) -> Option<Program> {
-    let mut draft: Draft = program.clone().into_draft();
-    let value = match value {
-        Value::Arg(arg) => arg,
-        Value::Constant(constant) => draft.constant(constant),
-    };
-    let replaced = |arg: &mut Arg| {
-        if *arg == Arg::Result(at as u16) {
-            *arg = value;
-        }
-    };
-    draft.instrs.iter_mut().for_each(|instr| instr.args_mut().iter_mut().for_each(replaced));
-    draft.outputs.iter_mut().for_each(replaced);
+    let draft = program.rewritten(|new, i, instr| match value {
+        // No argument comes later: up to there, every result keeps its index.
+        Value::Arg(arg) if i == at => arg,
+        Value::Constant(constant) if i == at => new.constant(constant),
+        Value::Arg(_) | Value::Constant(_) => new.push_instr(instr),
+    });
     Some(effective(&Program::verify(draft).ok()?))
 }
 
@@ -178,6 +172,17 @@ mod tests {
             outputs: vec![column("y")],
             search: split.clone(),
             validation: split,
+        }
+    }
+
+    #[test]
+    fn of_every_operation_of_pieces_it_is_known_when_it_does_not_act() {
+        let args = [0, 1, 2, 3].map(Arg::Input);
+        for &op in Op::ALL {
+            // Roundings to whole numbers, signs and angles act nearly everywhere.
+            let always_acts = matches!(op, Op::Floor | Op::Fract | Op::Sign | Op::Atan2);
+            let may_be_idle = op.is_piecewise() && !always_acts;
+            assert_eq!(may_be_idle, !cases(op, &args).is_empty(), "{op}");
         }
     }
 

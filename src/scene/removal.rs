@@ -119,32 +119,16 @@ const DEAR: f64 = 1.5;
 
 /// The draft with one instruction made anew: from its arguments, the result that takes its place.
 fn rebuilt(draft: &Draft, at: usize, make: &dyn Fn(&mut Draft, &[Arg]) -> Arg) -> Draft {
-    let mut new = Draft { inputs: draft.inputs, consts: draft.consts.clone(), ..Draft::default() };
-    let mut moved: Vec<Arg> = Vec::with_capacity(draft.instrs.len());
-    let place = |arg: Arg, moved: &[Arg]| match arg {
-        Arg::Result(i) => moved[usize::from(i)],
-        other => other,
-    };
-    for (i, instr) in draft.instrs.iter().enumerate() {
-        let args: Vec<Arg> = instr.args().iter().map(|&arg| place(arg, &moved)).collect();
-        let result = if i == at { make(&mut new, &args) } else { new.push(instr.op(), &args) };
-        moved.push(result);
-    }
-    new.outputs = draft.outputs.iter().map(|&output| place(output, &moved)).collect();
-    new
+    draft.rewritten(|new, i, instr| match i == at {
+        true => make(new, instr.args()),
+        false => new.push_instr(instr),
+    })
 }
 
 /// The draft with a constant of its own wherever one is read, so that they can be fitted apart.
 pub(super) fn apart(draft: &Draft) -> Draft {
     let mut new = draft.clone();
-    new.consts.clear();
-    let Draft { instrs, consts, outputs, .. } = &mut new;
-    for arg in instrs.iter_mut().flat_map(|instr| instr.args_mut()).chain(outputs) {
-        if let Arg::Const(i) = arg {
-            consts.push(draft.consts[usize::from(*i)]);
-            *i = (consts.len() - 1) as u16;
-        }
-    }
+    new.unshare_constants();
     new
 }
 

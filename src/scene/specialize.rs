@@ -4,6 +4,7 @@ use super::combine::folded;
 use super::idle::{Evidence, first_idle};
 use super::removal::{Removal, apart, removals};
 use super::{View, idle};
+use crate::archive::undominated;
 use crate::cost::{CostScratch, Profile};
 use crate::dataset::{Dataset, joint_unit, output_units};
 use crate::eval::Samples;
@@ -12,6 +13,7 @@ use crate::op::Op;
 use crate::program::{Constants, Draft, Program, effective, structural_hash};
 use crate::simplify::tidy;
 use rayon::prelude::*;
+use std::cmp::Ordering;
 use std::collections::HashSet;
 
 /// What was done to a formula.
@@ -192,13 +194,8 @@ impl<'a> Work<'a> {
     }
 
     fn keep_undominated(&mut self) {
-        self.seen.sort_by(|a, b| a.0.total_cmp(&b.0).then(a.1.total_cmp(&b.1)));
-        let mut least = f64::INFINITY;
-        self.seen.retain(|(_, loss, _)| {
-            let better = *loss < least;
-            least = least.min(*loss);
-            better
-        });
+        let seen = std::mem::take(&mut self.seen);
+        self.seen = undominated(seen, |(cost, loss, _)| (*cost, *loss), |_, _| Ordering::Equal);
     }
 
     fn take(&mut self, change: Change, draft: &Draft, loss: f64) {

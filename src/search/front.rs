@@ -1,6 +1,7 @@
 //! The front: what a search leaves behind.
 
 use super::{Search, Work};
+use crate::archive::undominated;
 use crate::cost::{Cost, Profile};
 use crate::dataset::Dataset;
 use crate::eval::{Evaluator, OutputError, Score};
@@ -152,20 +153,9 @@ impl Front {
     }
 
     /// Keeps the members that are not dominated.
-    pub fn from_members(mut members: Vec<FrontMember>, measure: Measure) -> Front {
-        let key = |member: &FrontMember| member.deciding_error(measure);
-        members.sort_by(|a, b| {
-            a.cost
-                .total_cmp(&b.cost)
-                .then(key(a).total_cmp(&key(b)))
-                .then_with(|| a.formula.cmp(&b.formula))
-        });
-        let mut least = f64::INFINITY;
-        members.retain(|member| {
-            let kept = key(member) < least;
-            least = least.min(key(member));
-            kept
-        });
+    pub fn from_members(members: Vec<FrontMember>, measure: Measure) -> Front {
+        let place = |member: &FrontMember| (member.cost, member.deciding_error(measure));
+        let members = undominated(members, place, |a, b| a.formula.cmp(&b.formula));
         Front { measure, members }
     }
 

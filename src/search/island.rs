@@ -10,7 +10,7 @@ use crate::deadline::Deadline;
 use crate::eval::Samples;
 use crate::fit::{Fitter, Measure, Rounds, Stop, minimax};
 use crate::op::Op;
-use crate::program::{Arg, Constants, Draft, structural_hash};
+use crate::program::{Constants, Draft, structural_hash};
 use crate::simplify::Simplifier;
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
@@ -328,15 +328,7 @@ impl Island {
     fn settle(&mut self, draft: &Draft, problem: &Problem) {
         let child = &mut self.workshop.child;
         child.copy_from(draft);
-        child.consts.clear();
-        let Draft { instrs, consts, outputs, .. } = child;
-        let args = instrs.iter_mut().flat_map(|instr| instr.args_mut()).chain(outputs);
-        for arg in args {
-            if let Arg::Const(i) = arg {
-                consts.push(draft.consts[usize::from(*i)]);
-                *i = (consts.len() - 1) as u16;
-            }
-        }
+        child.unshare_constants();
         self.consider(problem);
     }
 }

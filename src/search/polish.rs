@@ -13,7 +13,7 @@ use crate::fit::{
 };
 use crate::num::{Interval, enclose};
 use crate::op::{MAX_ARITY, Op};
-use crate::program::{Arg, Draft, Instr, Names, Program, effective};
+use crate::program::{Arg, Draft, Names, Program, effective};
 use crate::simplify::{Simplifier, tidy};
 use rayon::prelude::*;
 
@@ -130,7 +130,7 @@ fn finished(
     let guarded = guarded(&simple, problem);
     let natural = [draft.clone(), simple].into_iter().chain(guarded).filter_map(|draft| {
         let program = Program::verify(problem.natural(&draft).into_owned()).ok()?;
-        let active = without_idle(program, &problem.dataset.inputs);
+        let active = without_idle(&program, &problem.dataset.inputs);
         // What was idle may have stood between constants.
         let mut simple = Draft::default();
         simplifier.simplify(&active, &mut simple);
@@ -167,21 +167,12 @@ fn guarded(draft: &Draft, problem: &Problem) -> Option<Draft> {
     if !problem.grammar.operations.iter().any(|(op, _)| *op == Op::Abs) {
         return None;
     }
-    let mut guarded = Draft { instrs: Vec::new(), outputs: Vec::new(), ..draft.clone() };
-    let mut moved: Vec<Arg> = Vec::new();
-    for instr in &draft.instrs {
-        let mut args = [Arg::Input(0); MAX_ARITY];
-        for (to, &arg) in args.iter_mut().zip(instr.args()) {
-            *to = arg;
-            redirect(to, &moved);
+    let guarded = draft.rewritten(|new, _, mut instr| {
+        if instr.op().needs_positive() {
+            instr.args_mut()[0] = new.push(Op::Abs, &instr.args()[..1]);
         }
-        if let Op::Sqrt | Op::Rsqrt | Op::Log2 | Op::Log | Op::Pow = instr.op() {
-            args[0] = guarded.push(Op::Abs, &[args[0]]);
-        }
-        moved.push(guarded.push(instr.op(), &args[..instr.args().len()]));
-    }
-    guarded.outputs.extend(&draft.outputs);
-    guarded.outputs.iter_mut().for_each(|output| redirect(output, &moved));
+        new.push_instr(instr)
+    });
     (guarded.instrs.len() > draft.instrs.len()).then_some(guarded)
 }
 
@@ -238,20 +229,14 @@ const WORSE: f64 = 1.0005;
 
 /// Without those of `abs`, `saturate`, `min` and `max` that, by interval arithmetic, do nothing
 /// anywhere in the inputs' domain.
-fn without_idle(program: Program, inputs: &[Column]) -> Program {
-    let mut draft = program.clone().into_draft();
+fn without_idle(program: &Program, inputs: &[Column]) -> Program {
     let domain = |column: &Column| enclose(column.domain[0], column.domain[1]);
     let inputs: Vec<Interval> = inputs.iter().map(domain).collect();
     let mut results: Vec<Interval> = Vec::new();
-    let mut moved: Vec<Arg> = Vec::new();
-    for i in 0..draft.instrs.len() {
-        for arg in draft.instrs[i].args_mut() {
-            redirect(arg, &moved);
-        }
-        let instr = draft.instrs[i];
+    let draft = program.rewritten(|new, _, instr| {
         let bounds = |arg: Arg| match arg {
             Arg::Input(i) => inputs[usize::from(i)],
-            Arg::Const(i) => Bounds.constant(draft.consts[usize::from(i)]),
+            Arg::Const(i) => Bounds.constant(new.consts[usize::from(i)]),
             Arg::Result(i) => results[usize::from(i)],
         };
         let mut arguments = [bounds(instr.args()[0]); MAX_ARITY];
@@ -259,21 +244,15 @@ fn without_idle(program: Program, inputs: &[Column]) -> Program {
             *to = bounds(arg);
         }
         results.push(Bounds.apply(instr.op(), arguments));
-        let idle = passes_through(instr.op(), arguments).map(|place| instr.args()[place]);
-        moved.push(idle.unwrap_or(Arg::Result(i as u16)));
         let [only, ..] = arguments;
-        if instr.op() == Op::Abs && only.high() <= 0.0 && !only.may_be_nan() && !only.is_empty() {
-            draft.instrs[i] = Instr::new(Op::Neg, instr.args());
-        }
-    }
-    draft.outputs.iter_mut().for_each(|output| redirect(output, &moved));
-    Program::verify(draft).unwrap_or(program)
-}
-
-fn redirect(arg: &mut Arg, moved: &[Arg]) {
-    if let Arg::Result(i) = *arg {
-        *arg = moved[usize::from(i)];
-    }
+        let negates = only.high() <= 0.0 && !only.may_be_nan() && !only.is_empty();
+        let kept = match instr.op() {
+            Op::Abs if negates => new.push(Op::Neg, instr.args()),
+            _ => new.push_instr(instr),
+        };
+        passes_through(instr.op(), arguments).map_or(kept, |place| instr.args()[place])
+    });
+    Program::verify(draft).expect("as many instructions, of values that were there")
 }
 
 /// The place of the argument that the operation's result always is.
@@ -309,7 +288,7 @@ mod tests {
             ("y = min(abs(x + 1), 0.75)", "y = 0.75"),
             ("y = 2*abs(-0.5 - x)", "y = 2*-(-0.5 - x)"),
         ] {
-            let program = without_idle(parse(text, &names).unwrap(), &inputs);
+            let program = without_idle(&parse(text, &names).unwrap(), &inputs);
             assert_eq!(print(&effective(&program), &names), left);
         }
     }

@@ -1,7 +1,7 @@
 //! An island's population: the best few individuals at each cost, or of each family at each cost.
 
 use super::loaded::{check_draft, not_negative};
-use crate::op::Op;
+use crate::op::Family;
 use crate::program::Draft;
 use rand::RngExt;
 use rand_chacha::ChaCha8Rng;
@@ -38,11 +38,11 @@ const FAMILIES: usize = 8;
 fn family(draft: &Draft) -> usize {
     draft.instrs.iter().fold(0, |family, instr| {
         family
-            | match instr.op() {
-                Op::Exp2 | Op::Log2 | Op::Exp | Op::Log | Op::Pow | Op::Tanh => 1,
-                Op::Sqrt | Op::Rsqrt => 2,
-                Op::Div | Op::Rcp => 4,
-                _ => 0,
+            | match instr.op().family() {
+                Family::Exponential => 1,
+                Family::Root => 2,
+                Family::Quotient => 4,
+                Family::Arithmetic | Family::Trigonometric | Family::Choice => 0,
             }
     })
 }

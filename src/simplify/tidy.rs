@@ -21,7 +21,7 @@ pub fn tidy(program: &Program) -> Program {
             draft.instrs[i] = Instr::new(op, &args);
         }
     }
-    Program::verify(draft).unwrap_or_else(|_| program.clone())
+    program.or_longer(draft)
 }
 
 /// `−arg`, if `arg` is a negative constant, or a product or a quotient of one that only instruction `reader` reads;

@@ -67,7 +67,7 @@ impl Trace<'_> {
         match arg {
             Arg::Result(i) if self.found[usize::from(i)].is_nan() => f64::INFINITY,
             Arg::Result(i) => relative(self.found[usize::from(i)], self.exact[usize::from(i)]),
-            _ => 0.0,
+            Arg::Input(_) | Arg::Const(_) => 0.0,
         }
     }
 

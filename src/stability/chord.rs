@@ -1,7 +1,7 @@
 //! Functions of one argument as straight lines with an error, on an interval.
 
 use super::form::{Form, Terms};
-use crate::eval::{Arithmetic, Bounds};
+use crate::eval::{Arithmetic, Bounds, Double};
 use crate::num::Interval;
 use crate::op::Op;
 use std::f64::consts::{LN_2, LOG2_E};
@@ -71,9 +71,15 @@ pub(super) fn image(op: Op, x: &Form, bounds: Interval, terms: &mut Terms) -> Op
             curve.image(x, low, high, terms)
         }
         Op::Sin | Op::Cos | Op::Tan | Op::Asin | Op::Acos | Op::Atan | Op::Tanh => {
-            by_derivative(op, x, bounds, terms)
+            let derivative = derivative(op, bounds)?;
+            by_derivative(op, derivative, x, bounds, terms)
         }
-        _ => None,
+        // Unbounded there.
+        Op::Rcp | Op::Log2 | Op::Log => None,
+        // Of two arguments, or no curves: the enclosure has forms of their own for them, or none.
+        Op::Add | Op::Sub | Op::Mul | Op::Div | Op::Neg | Op::Mad | Op::Lerp | Op::Pow => None,
+        Op::Abs | Op::Min | Op::Max | Op::Saturate | Op::Rsqrt | Op::Atan2 => None,
+        Op::Step | Op::Select | Op::Floor | Op::Fract | Op::Sign => None,
     }
 }
 
@@ -153,33 +159,38 @@ impl Curve<'_> {
     }
 }
 
-/// The line through the middle whose slope is the middle of the derivative's bounds.
-fn by_derivative(op: Op, x: &Form, bounds: Interval, terms: &mut Terms) -> Option<Form> {
+/// Bounds of the derivative of a function that is neither convex nor concave everywhere.
+fn derivative(op: Op, x: Interval) -> Option<Interval> {
     let of = |op: Op, x: Interval| Bounds.apply(op, [x; 4]);
     let one = Interval::new(1.0, 1.0);
     let square = |x: Interval| of(Op::Abs, x).times(of(Op::Abs, x));
-    let derivative = match op {
-        Op::Sin => of(Op::Cos, bounds),
-        Op::Cos => of(Op::Sin, bounds).negated(),
-        Op::Tan => one.plus(square(of(Op::Tan, bounds))),
-        Op::Atan => one.over(one.plus(square(bounds))),
-        Op::Tanh => one.plus(square(of(Op::Tanh, bounds)).negated()),
-        Op::Asin => of(Op::Rsqrt, one.plus(square(bounds).negated())),
-        Op::Acos => of(Op::Rsqrt, one.plus(square(bounds).negated())).negated(),
-        _ => return None,
-    };
+    match op {
+        Op::Sin => Some(of(Op::Cos, x)),
+        Op::Cos => Some(of(Op::Sin, x).negated()),
+        Op::Tan => Some(one.plus(square(of(Op::Tan, x)))),
+        Op::Atan => Some(one.over(one.plus(square(x)))),
+        Op::Tanh => Some(one.plus(square(of(Op::Tanh, x)).negated())),
+        Op::Asin => Some(of(Op::Rsqrt, one.plus(square(x).negated()))),
+        Op::Acos => Some(of(Op::Rsqrt, one.plus(square(x).negated())).negated()),
+        Op::Rcp | Op::Sqrt | Op::Rsqrt | Op::Exp2 | Op::Exp | Op::Log2 | Op::Log => None,
+        Op::Add | Op::Sub | Op::Mul | Op::Div | Op::Neg | Op::Mad | Op::Lerp | Op::Pow => None,
+        Op::Abs | Op::Min | Op::Max | Op::Saturate | Op::Atan2 => None,
+        Op::Step | Op::Select | Op::Floor | Op::Fract | Op::Sign => None,
+    }
+}
+
+/// The line through the middle whose slope is the middle of the derivative's bounds.
+fn by_derivative(
+    op: Op,
+    derivative: Interval,
+    x: &Form,
+    bounds: Interval,
+    terms: &mut Terms,
+) -> Option<Form> {
     let line = Form::around(derivative).filter(|_| !derivative.may_be_nan())?;
     let (low, high) = (f64::from(bounds.low()), f64::from(bounds.high()));
     let middle = low / 2.0 + high / 2.0;
-    let value = match op {
-        Op::Sin => middle.sin(),
-        Op::Cos => middle.cos(),
-        Op::Tan => middle.tan(),
-        Op::Atan => middle.atan(),
-        Op::Tanh => middle.tanh(),
-        Op::Asin => middle.asin(),
-        _ => middle.acos(),
-    };
+    let value = Double.apply(op, [middle; 4]);
     let slope = f64::from(derivative.low()) / 2.0 + f64::from(derivative.high()) / 2.0;
     let error = line.radius() * (high / 2.0 - low / 2.0);
     let offset = value - slope * middle;

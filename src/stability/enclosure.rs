@@ -1,10 +1,8 @@
 //! Programs on boxes: every value that each instruction can give there.
 
-#![deny(clippy::wildcard_enum_match_arm)]
-
 use super::chord;
 use super::form::{Form, Terms};
-use super::rounding::{HUGE, Rounding, flushed, promised};
+use super::rounding::{HUGE, Rounding, flushed};
 use crate::eval::{Arithmetic, Bounds};
 use crate::num::Interval;
 use crate::op::{MAX_ARITY, Op};
@@ -292,9 +290,8 @@ fn describes(rounding: Rounding, op: Op, a: Interval, b: Interval) -> bool {
     let reach = a.abs().high();
     let gpu = rounding == Rounding::Gpu;
     match op {
-        Op::Sin | Op::Cos if gpu => promised(a),
-        // On GPUs a quotient, which is looked at in two steps.
-        Op::Sin | Op::Cos | Op::Tan => reach <= 1e4,
+        // On GPUs a tangent is a quotient, which is looked at in two steps.
+        Op::Sin | Op::Cos | Op::Tan => rounding.promises(op, a),
         Op::Min | Op::Max => !gpu || !a.may_be_nan() && !b.may_be_nan(),
         Op::Saturate => !gpu || !a.may_be_nan(),
         Op::Rcp => !gpu || reach < HUGE,

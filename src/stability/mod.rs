@@ -22,6 +22,9 @@
 //! # Ok::<(), lgp::program::ParseError>(())
 //! ```
 
+// A new operation must not be proved anything about by an arm that nobody looked at.
+#![deny(clippy::wildcard_enum_match_arm)]
+
 mod blame;
 mod chord;
 mod counterexample;

@@ -179,7 +179,12 @@ fn vanished(trace: &Trace, found: f64, exact: f64) -> Option<Blame> {
             && match instr.op() {
                 Op::Exp | Op::Exp2 => value(args[0]).is_finite(),
                 Op::Pow => value(args[0]) > 0.0 && value(args[1]).is_finite(),
-                _ => false,
+                // Zero of ordinary numbers only where it is zero indeed.
+                Op::Add | Op::Sub | Op::Mul | Op::Div | Op::Neg | Op::Mad | Op::Lerp => false,
+                Op::Rcp | Op::Sqrt | Op::Rsqrt | Op::Log2 | Op::Log | Op::Tanh => false,
+                Op::Sin | Op::Cos | Op::Tan | Op::Asin | Op::Acos | Op::Atan | Op::Atan2 => false,
+                Op::Abs | Op::Min | Op::Max | Op::Saturate | Op::Step | Op::Select => false,
+                Op::Floor | Op::Fract | Op::Sign => false,
             }
     });
     let condition = f64::INFINITY;

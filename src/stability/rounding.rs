@@ -1,11 +1,9 @@
-//! What each operation's result may be off by. Each operation is named wherever its error is decided: a
-//! new one must not get a bound that nobody looked up.
-
-#![deny(clippy::wildcard_enum_match_arm)]
+//! What each operation's result may be off by, as the operation table has it. What is peculiar to one is decided
+//! where each is named: a new one must not get a bound that nobody looked up.
 
 use crate::eval::{Arithmetic, Bounds};
 use crate::num::{Interval, enclose};
-use crate::op::Op;
+use crate::op::{Accuracy, Op};
 use serde::{Deserialize, Serialize};
 
 /// Whose arithmetic a verdict is about.
@@ -35,9 +33,6 @@ const LEAST: f64 = 1.5e-45;
 /// Below it results may be flushed to zero.
 const LEAST_NORMAL: f32 = f32::MIN_POSITIVE;
 
-/// Up to where sin and cos are accurate on GPUs.
-const HALF_TURN: f32 = std::f32::consts::PI;
-
 /// Just below 2¹²⁶: the reciprocal of a larger number may be flushed to zero.
 pub(super) const HUGE: f32 = 8.5e37;
 
@@ -55,57 +50,28 @@ impl Error {
 }
 
 impl Rounding {
-    /// Of one operation; those that are made of others have no error of their own.
-    pub(super) fn error(self, op: Op, [a, b, ..]: [Interval; 4]) -> Error {
+    fn accuracy(self, op: Op) -> Accuracy {
         match self {
-            Rounding::Exact => Rounding::stated(op),
-            Rounding::Gpu => Rounding::allowed(op, [a, b]),
+            Rounding::Exact => op.accuracy(),
+            Rounding::Gpu => op.gpu_accuracy(),
         }
     }
 
-    /// That of the interpreter.
-    fn stated(op: Op) -> Error {
-        match op {
-            Op::Neg | Op::Abs | Op::Min | Op::Max | Op::Saturate => Error::NONE,
-            Op::Step | Op::Select | Op::Floor | Op::Sign => Error::NONE,
-            Op::Pow | Op::Lerp => Error::NONE,
-            Op::Add | Op::Sub | Op::Mul | Op::Div | Op::Mad => Error::ulps(0.5),
-            Op::Rcp | Op::Sqrt | Op::Fract => Error::ulps(0.5),
-            Op::Exp2 => Error::ulps(1.0),
-            Op::Rsqrt => Error::ulps(1.5),
-            Op::Exp | Op::Log2 | Op::Log | Op::Sin | Op::Cos => Error::ulps(2.0),
-            Op::Asin | Op::Acos | Op::Atan | Op::Tanh => Error::ulps(3.0),
-            Op::Tan | Op::Atan2 => Error::ulps(4.0),
-        }
-    }
-
-    fn allowed(op: Op, [a, _]: [Interval; 2]) -> Error {
-        let reach = f64::from(a.abs().high());
-        let error = match op {
-            Op::Neg | Op::Abs | Op::Min | Op::Max | Op::Saturate => return Error::NONE,
-            Op::Step | Op::Select | Op::Floor | Op::Sign => return Error::NONE,
-            // Made of others, and looked at in their steps.
-            Op::Pow | Op::Lerp | Op::Tan => return Error::NONE,
-            Op::Add | Op::Sub | Op::Mul | Op::Mad | Op::Fract => Error::ulps(1.0),
-            Op::Div | Op::Rcp => Error::ulps(2.5),
-            Op::Rsqrt => Error::ulps(2.0),
-            // 1/inverseSqrt(x)
-            Op::Sqrt => Error::ulps(4.6),
-            Op::Exp2 | Op::Exp => Error::ulps(3.0 + 2.0 * reach.min(200.0)),
-            Op::Log2 | Op::Log if a.low() > 2.0 || a.high() < 0.5 => Error::ulps(3.0),
-            Op::Log2 | Op::Log => {
-                Error { absolute: f64::powi(2.0, -21) + 3.0 * LEAST, ..Error::ulps(3.0) }
-            }
-            Op::Sin | Op::Cos => Error { relative: 0.0, absolute: f64::powi(2.0, -11) },
-            Op::Atan | Op::Atan2 => Error::ulps(4096.0),
-            // By way of atan2(x, sqrt(1 − x²)), whose root may be off by 2.5e-4 near x = 1; with
-            // 4096 ulp of an angle up to π/2, and up to π.
-            Op::Asin => Error { relative: 0.0, absolute: 1.1e-3 },
-            Op::Acos => Error { relative: 0.0, absolute: 1.8e-3 },
-            // By way of sinh(x)/cosh(x): four exponentials and a quotient.
-            Op::Tanh => Error { absolute: 1e-5, ..Error::ulps(13.0 + 4.0 * reach.min(89.0)) },
+    /// Of one operation; those that are made of others have no error of their own.
+    pub(super) fn error(self, op: Op, [a, ..]: [Interval; 4]) -> Error {
+        let Accuracy::Within(tolerance) = self.accuracy(op) else { return Error::NONE };
+        let error = Error::ulps(tolerance.ulps_up_to(a.abs().high().into()));
+        let absolute = error.absolute + tolerance.absolute_between(a.low(), a.high());
+        let flushed = match self {
+            Rounding::Exact => 0.0,
+            Rounding::Gpu => f64::from(LEAST_NORMAL),
         };
-        Error { absolute: error.absolute + f64::from(LEAST_NORMAL), ..error }
+        Error { absolute: absolute + flushed, ..error }
+    }
+
+    /// Whether any accuracy is promised of an operation there.
+    pub(super) fn promises(self, op: Op, argument: Interval) -> bool {
+        argument.abs().high() <= self.accuracy(op).up_to()
     }
 
     /// Bounds of one operation's results, given those of its arguments.
@@ -132,7 +98,7 @@ impl Rounding {
         let widened = spread(exact, self.error(op, arguments));
         let zero = Interval::new(0.0, 0.0);
         let bounds = match op {
-            Op::Sin | Op::Cos if !promised(a) => Interval::LINE.or_nan_if(true),
+            Op::Sin | Op::Cos if !self.promises(op, a) => Interval::LINE.or_nan_if(true),
             Op::Exp2 | Op::Exp | Op::Sqrt => widened.clamped(0.0, f32::INFINITY),
             Op::Fract => widened.clamped(0.0, 1.0),
             Op::Div if b.abs().high() >= HUGE => widened.hull(zero).or_nan_if(a.may_be_infinite()),
@@ -147,11 +113,6 @@ impl Rounding {
         };
         flushed(bounds).or_nan_if(nan)
     }
-}
-
-/// Whether the specifications promise any accuracy of sin and cos there.
-pub(super) fn promised(angle: Interval) -> bool {
-    angle.abs().high() <= HALF_TURN
 }
 
 fn spread(bounds: Interval, error: Error) -> Interval {

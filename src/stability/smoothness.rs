@@ -180,7 +180,10 @@ impl View<'_> {
             Op::Saturate => i64::from(value(0) > 0.0) + i64::from(value(0) > 1.0),
             Op::Floor | Op::Fract => value(0).floor().clamp(-1e18, 1e18) as i64,
             Op::Sign => i64::from(value(0) > 0.0) - i64::from(value(0) < 0.0),
-            _ => 0,
+            // Of one piece.
+            Op::Add | Op::Sub | Op::Mul | Op::Div | Op::Neg | Op::Mad | Op::Lerp | Op::Pow => 0,
+            Op::Rcp | Op::Sqrt | Op::Rsqrt | Op::Exp2 | Op::Log2 | Op::Exp | Op::Log => 0,
+            Op::Sin | Op::Cos | Op::Tan | Op::Asin | Op::Acos | Op::Atan | Op::Tanh => 0,
         }
     }
 

@@ -5,7 +5,7 @@ use crate::dataset::Split;
 use crate::eval::{Evaluator, Samples, Tape};
 use crate::num::Interval;
 use crate::op::Op;
-use crate::program::{Arg, Draft, Program};
+use crate::program::{Arg, Draft, Instr, Invalid, Program};
 use serde::Serialize;
 
 /// What a compiler may do.
@@ -106,78 +106,78 @@ impl Variant {
 
     fn of(program: &Program, liberty: Liberty) -> Variant {
         let (draft, origin) = rewritten(program, liberty);
-        // Only more instructions than a program can hold are refused.
         match Program::verify(draft) {
             Ok(program) => Variant { program, origin },
-            Err(_) => Variant::plain(program),
+            Err(invalid) => {
+                debug_assert!(matches!(invalid, Invalid::TooMany { .. }), "{invalid}");
+                Variant::plain(program)
+            }
         }
     }
 }
 
 fn rewritten(program: &Program, liberty: Liberty) -> (Draft, Vec<usize>) {
     let mut origin = Vec::with_capacity(program.instrs.len());
-    let mut draft =
-        Draft { inputs: program.inputs, consts: program.consts.clone(), ..Draft::default() };
-    let one = draft.constant(1.0);
-    let mut moved: Vec<Arg> = Vec::with_capacity(program.instrs.len());
-    let now = |arg: Arg, moved: &[Arg]| match arg {
-        Arg::Result(i) => moved[usize::from(i)],
-        other => other,
-    };
-    for (i, instr) in program.instrs.iter().enumerate() {
-        let args: Vec<Arg> = instr.args().iter().map(|&arg| now(arg, &moved)).collect();
-        let inner = |arg: Arg, op: Op, draft: &Draft| match arg {
-            Arg::Result(i) if draft.instrs[usize::from(i)].op() == op => {
-                let args = draft.instrs[usize::from(i)].args();
-                Some((args[0], args[1]))
-            }
-            _ => None,
+    let draft = program.rewritten(|draft, i, instr| {
+        let result = match liberty {
+            Liberty::Unfused => draft.push_unfused(instr),
+            Liberty::Fused => fused(draft, instr),
+            Liberty::Reciprocal => by_reciprocal(draft, instr),
+            Liberty::Reassociated => reassociated(draft, instr),
         };
-        moved.push(match (liberty, instr.op()) {
-            (Liberty::Unfused, Op::Mad) => {
-                let product = draft.push(Op::Mul, &args[..2]);
-                draft.push(Op::Add, &[product, args[2]])
-            }
-            (Liberty::Fused, Op::Add) => {
-                let left = inner(args[0], Op::Mul, &draft).map(|product| (product, args[1]));
-                let right = || inner(args[1], Op::Mul, &draft).map(|product| (product, args[0]));
-                match left.or_else(right) {
-                    Some(((a, b), rest)) => draft.push(Op::Mad, &[a, b, rest]),
-                    None => draft.push(Op::Add, &args),
-                }
-            }
-            (Liberty::Fused, Op::Sub) => match inner(args[0], Op::Mul, &draft) {
-                Some((a, b)) => {
-                    let rest = draft.push(Op::Neg, &args[1..2]);
-                    draft.push(Op::Mad, &[a, b, rest])
-                }
-                None => match inner(args[1], Op::Mul, &draft) {
-                    Some((a, b)) => {
-                        let minus = draft.push(Op::Neg, &[a]);
-                        draft.push(Op::Mad, &[minus, b, args[0]])
-                    }
-                    None => draft.push(Op::Sub, &args),
-                },
-            },
-            (Liberty::Reciprocal, Op::Div) => {
-                let reciprocal = draft.push(Op::Rcp, &args[1..2]);
-                draft.push(Op::Mul, &[args[0], reciprocal])
-            }
-            (Liberty::Reciprocal, Op::Sqrt) => {
-                let reciprocal = draft.push(Op::Rsqrt, &args);
-                draft.push(Op::Div, &[one, reciprocal])
-            }
-            (Liberty::Reassociated, op @ (Op::Add | Op::Mul)) => match inner(args[0], op, &draft) {
-                Some((a, b)) => {
-                    let rest = draft.push(op, &[b, args[1]]);
-                    draft.push(op, &[a, rest])
-                }
-                None => draft.push(op, &args),
-            },
-            (_, op) => draft.push(op, &args),
-        });
         origin.resize(draft.instrs.len(), i);
-    }
-    draft.outputs = program.outputs.iter().map(|&arg| now(arg, &moved)).collect();
+        result
+    });
     (draft, origin)
+}
+
+/// The first two arguments of `arg`'s instruction, if that is an `op`.
+fn inner(draft: &Draft, arg: Arg, op: Op) -> Option<[Arg; 2]> {
+    let Arg::Result(i) = arg else { return None };
+    let instr = draft.instrs[usize::from(i)];
+    (instr.op() == op).then(|| [instr.args()[0], instr.args()[1]])
+}
+
+/// A sum with a product, or a difference of one, as a `mad`.
+fn fused(draft: &mut Draft, instr: Instr) -> Arg {
+    let (op, args) = (instr.op(), instr.args());
+    if !matches!(op, Op::Add | Op::Sub) {
+        return draft.push_instr(instr);
+    }
+    let negated = |draft: &mut Draft, arg: Arg| match op == Op::Sub {
+        true => draft.push(Op::Neg, &[arg]),
+        false => arg,
+    };
+    if let Some([a, b]) = inner(draft, args[0], Op::Mul) {
+        let rest = negated(draft, args[1]);
+        return draft.push(Op::Mad, &[a, b, rest]);
+    }
+    if let Some([a, b]) = inner(draft, args[1], Op::Mul) {
+        let a = negated(draft, a);
+        return draft.push(Op::Mad, &[a, b, args[0]]);
+    }
+    draft.push_instr(instr)
+}
+
+fn by_reciprocal(draft: &mut Draft, instr: Instr) -> Arg {
+    let (op, args) = (instr.op(), instr.args());
+    if op == Op::Div {
+        let reciprocal = draft.push(Op::Rcp, &args[1..]);
+        return draft.push(Op::Mul, &[args[0], reciprocal]);
+    }
+    if op == Op::Sqrt {
+        let one = draft.constant(1.0);
+        let reciprocal = draft.push(Op::Rsqrt, args);
+        return draft.push(Op::Div, &[one, reciprocal]);
+    }
+    draft.push_instr(instr)
+}
+
+fn reassociated(draft: &mut Draft, instr: Instr) -> Arg {
+    let (op, args) = (instr.op(), instr.args());
+    let takes_part = matches!(op, Op::Add | Op::Mul);
+    let product = takes_part.then(|| inner(draft, args[0], op)).flatten();
+    let Some([a, b]) = product else { return draft.push_instr(instr) };
+    let rest = draft.push(op, &[b, args[1]]);
+    draft.push(op, &[a, rest])
 }

@@ -196,6 +196,5 @@ fn with_sum(program: &Program, energy: Option<[usize; 2]>) -> Program {
     let mut draft = program.clone().into_draft();
     let sum = draft.push(Op::Add, &[draft.outputs[scale], draft.outputs[bias]]);
     draft.outputs.push(sum);
-    // Only more instructions than a program can hold are refused.
-    Program::verify(draft).unwrap_or_else(|_| program.clone())
+    program.or_longer(draft)
 }

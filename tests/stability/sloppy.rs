@@ -3,7 +3,7 @@
 #![deny(clippy::wildcard_enum_match_arm)]
 
 use lgp::eval::{Arithmetic, Double};
-use lgp::op::Op;
+use lgp::op::{Accuracy, Op};
 use lgp::program::Program;
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
@@ -47,6 +47,13 @@ impl Sloppy {
         self.flushed(result)
     }
 
+    /// Off by a share of what the operation table grants GPUs.
+    fn owed(&self, op: Op, argument: f32, exact: f64) -> f32 {
+        let Accuracy::Within(tolerance) = op.gpu_accuracy() else { return exact as f32 };
+        let ulps = tolerance.ulps_up_to(argument.abs().into());
+        self.off(exact, ulps, tolerance.absolute_between(argument, argument))
+    }
+
     /// Off by a random share of so many units, often all, plus as much of an absolute error.
     fn off(&self, x: f64, ulps: f64, absolute: f64) -> f32 {
         let share = self.0.borrow_mut().random_range(-2.0f64..2.0).clamp(-1.0, 1.0);
@@ -70,7 +77,8 @@ impl Sloppy {
     }
 }
 
-/// The table of WGSL's specification, section "Floating Point Accuracy", for `f32`.
+/// The table of WGSL's specification, section "Floating Point Accuracy", for `f32`; where that defines an
+/// operation by others, by way of these, so that what follows from it is tried as well.
 impl Arithmetic for Sloppy {
     type Value = f32;
 
@@ -87,27 +95,20 @@ impl Arithmetic for Sloppy {
             Op::Mad if self.coin() => self.rounded(exact),
             Op::Mad => two(Op::Add, two(Op::Mul, a, b), c),
             Op::Div if b.abs() > 8.6e37 && self.coin() => 0.0 * a,
-            Op::Div => self.off(exact, 2.5, 0.0),
+            Op::Div => self.owed(op, a, exact),
             Op::Rcp if a.abs() > 8.6e37 && self.coin() => 0.0,
-            Op::Rcp => self.off(exact, 2.5, 0.0),
-            Op::Rsqrt => self.off(exact, 2.0, 0.0),
+            Op::Rcp | Op::Rsqrt => self.owed(op, a, exact),
             Op::Sqrt if a > 0.0 && a.is_finite() => two(Op::Rcp, two(Op::Rsqrt, a, 0.0), 0.0),
             Op::Exp2 | Op::Exp => {
-                let power = self.off(exact, 3.0 + 2.0 * f64::from(a.abs()).min(200.0), 0.0);
+                let power = self.owed(op, a, exact);
                 if power < 0.0 { 0.0 } else { power }
             }
-            Op::Log2 | Op::Log if (0.5..=2.0).contains(&a) => {
-                self.off(exact, 0.0, f64::powi(2.0, -21))
-            }
-            Op::Log2 | Op::Log => self.off(exact, 3.0, 0.0),
+            Op::Log2 | Op::Log | Op::Atan => self.owed(op, a, exact),
             Op::Pow => two(Op::Exp2, two(Op::Mul, b, two(Op::Log2, a, 0.0)), 0.0),
-            Op::Sin | Op::Cos if a.abs() <= std::f32::consts::PI => {
-                self.off(exact, 0.0, f64::powi(2.0, -11))
-            }
+            Op::Sin | Op::Cos if a.abs() <= op.gpu_accuracy().up_to() => self.owed(op, a, exact),
             Op::Sin | Op::Cos if a.is_nan() => a,
             Op::Sin | Op::Cos => self.anything(),
             Op::Tan => two(Op::Div, two(Op::Sin, a, 0.0), two(Op::Cos, a, 0.0)),
-            Op::Atan => self.off(exact, 4096.0, 0.0),
             Op::Atan2 => self.flushed(op.apply(arguments)),
             Op::Asin | Op::Acos if a.abs() <= 1.0 => {
                 let root = two(Op::Sqrt, two(Op::Sub, 1.0, two(Op::Mul, a, a)).max(0.0), 0.0);
