@@ -35,8 +35,8 @@ fn snippets() -> Vec<(PathBuf, String)> {
             (path, text)
         })
         .collect();
-    let readable = ["hlsl", "wgsl", "glsl", "metal"];
-    found.retain(|(path, _)| readable.iter().any(|name| path.extension().unwrap() == *name));
+    let readable = Language::SHADING.iter().map(|language| language.extension());
+    found.retain(|(path, _)| readable.clone().any(|name| path.extension().unwrap() == name));
     found.sort();
     found
 }
@@ -365,7 +365,7 @@ fn what_cannot_be_read_is_refused_with_its_place() {
             BIAS.replace("float n_dot_v", "float n_dot_w").replace("7.0*n_dot_v", "n_dot_w"),
             "takes `n_dot_w`",
         ),
-        ("e.txt", BIAS.to_owned(), ".hlsl, .wgsl, .glsl or .metal"),
+        ("e.txt", BIAS.to_owned(), ".hlsl, .wgsl, .glsl, .metal or .slang"),
         ("f.hlsl", String::new(), "line 1, column 1"),
         ("g.wgsl", "fn f(x: f32) -> f32 { for (;;) {} }".to_owned(), "line 1, column"),
     ] {

@@ -22,12 +22,10 @@ pub struct Args {
     run: PathBuf,
     #[command(flatten)]
     which: Which,
-    /// hlsl, wgsl, glsl, msl, c, rust, python or latex
-    #[arg(long, value_name = "L", value_parser = Language::from_name)]
+    #[arg(long, value_name = "L", value_parser = Language::from_name,
+        help = Language::names(Language::ALL, "or"))]
     lang: Language,
-    /// In half precision throughout (hlsl, wgsl, glsl, msl), unless a constant or value is one that no
-    /// half holds; the comment says what that costs in accuracy
-    #[arg(long)]
+    #[arg(long, help = half_help())]
     half: bool,
     /// In half precision, but for as few operations as must stay in single for halves to add an
     /// error of at most E anywhere in the domain
@@ -45,6 +43,14 @@ pub struct Args {
     /// What this tier of the run's scene can afford
     #[arg(long, value_name = "TIER", conflicts_with_all = ["max_cost", "max_error"])]
     tier: Option<String>,
+}
+
+fn half_help() -> String {
+    format!(
+        "In half precision throughout ({}), unless a constant or value is one that no half holds; the \
+         comment says what that costs in accuracy",
+        Language::names(Language::SHADING, "and")
+    )
 }
 
 #[derive(Serialize)]
@@ -83,7 +89,8 @@ fn half(
     bound: Option<f64>,
 ) -> Result<String, Failure> {
     if !Language::SHADING.contains(&args.lang) {
-        let message = format!("--half: {} has no halves; hlsl, wgsl, glsl and msl do", args.lang);
+        let known = Language::names(Language::SHADING, "and");
+        let message = format!("--half: {} has no halves; {known} do", args.lang);
         return Err(Failure::usage(message));
     }
     let domain = Questions::of(&run.inputs, &run.outputs).domain;

@@ -21,7 +21,7 @@ use std::path::{Path, PathBuf};
 /// refused with its line: integers, other types, lines of the preprocessor, a backslash at a line's end.
 #[derive(clap::Args)]
 pub struct Args {
-    /// A .hlsl, .wgsl, .glsl or .metal file with one function
+    #[arg(help = format!("A {} file with one function", extensions()))]
     snippet: PathBuf,
     /// A dataset, as `lgp generate` and `lgp import` write them
     dataset: PathBuf,
@@ -139,8 +139,14 @@ fn language_of(path: &Path) -> Result<Language, Failure> {
     let extension = path.extension().unwrap_or_default().to_string_lossy().to_lowercase();
     let found = Language::SHADING.iter().find(|language| language.extension() == extension);
     found.copied().ok_or_else(|| {
-        unusable(path, &"its name says no language that can be read: .hlsl, .wgsl, .glsl or .metal")
+        let known = extensions();
+        unusable(path, &format!("its name says no language that can be read: {known}"))
     })
+}
+
+/// Those of the languages that can be read.
+fn extensions() -> String {
+    Language::list(Language::SHADING, "or", |language| format!(".{}", language.extension()))
 }
 
 /// The dataset's names for what the function takes and returns.

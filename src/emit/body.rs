@@ -201,7 +201,7 @@ impl Body<'_, '_> {
 
     fn declare(&mut self, name: String, value: &str, syntax: &Syntax) -> Code {
         let name = (syntax.written)(&name);
-        self.statements.push((syntax.local)(&name, value));
+        self.statements.push((syntax.local)(syntax, &name, value));
         Code::name(name, syntax)
     }
 

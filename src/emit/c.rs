@@ -2,31 +2,18 @@
 
 use super::c_family;
 use super::syntax::{
-    PARENTHESES, SIGNS, Signature, Spelling, Syntax, WIDTH, atom, decimal, is_word, negation,
-    product, select, sum,
+    Signature, Spelling, Syntax, atom, decimal, is_word, negation, product, select, sum,
 };
 use crate::op::Op;
 
 pub(super) const SYNTAX: Syntax = Syntax {
-    name: "c",
-    aliases: &["c99", "c++", "cpp"],
-    extension: "c",
-    comment: "//",
     types: &["float"],
     spelling,
-    power: None,
-    parentheses: PARENTHESES,
-    signs: SIGNS,
-    width: WIDTH,
     reserved,
-    written: str::to_owned,
-    half: false,
     literal: |value| decimal(value) + "f",
-    local: |name, value| format!("const float {name} = {value};"),
     non_finite: |name, _, bits| vec![format!("const float {name} = {};", non_finite(bits))],
     open,
-    close: c_family::close,
-    float_of_bits: "",
+    ..c_family::SYNTAX
 };
 
 fn spelling(op: Op) -> Spelling {
@@ -118,6 +105,7 @@ const MACROS: &str = "INFINITY NAN HUGE_VAL HUGE_VALF HUGE_VALL FP_INFINITE FP_N
     isgreaterequal isinf isless islessequal islessgreater isnan isnormal isunordered signbit \
     issignaling issubnormal iszero signgam";
 
+/// Functions of doubles in `math.h` of C23 (§7.12) and of glibc 2.36, and of integers in `stdlib.h`.
 const FUNCTIONS: &str = "acos acosh asin asinh atan atan2 atanh cbrt ceil copysign cos cosh drem \
     erf erfc exp exp10 exp2 expm1 fabs fdim finite floor fma fmax fmin fmod frexp gamma hypot ilogb \
     j0 j1 jn ldexp lgamma lgamma_r llrint llround log log10 log1p log2 logb lrint lround modf nan \

@@ -1,6 +1,74 @@
-//! Functions in the languages that look like C.
+//! What languages that look like C have in common: a language is what differs from it.
 
-use super::syntax::{Signature, Syntax};
+use super::syntax::{
+    Readable, Signature, Spelling, Syntax, atom, decimal, negation, product, select, sum,
+};
+use crate::op::Op;
+
+pub(super) const SYNTAX: Syntax = Syntax {
+    comment: "//",
+    types: &[],
+    spelling,
+    power: None,
+    parentheses: ["(", ")"],
+    signs: [" + ", " - "],
+    // With the declaration around it a line stays within 100 columns.
+    width: 72,
+    reserved: |_| false,
+    written: str::to_owned,
+    half: false,
+    literal: decimal,
+    local: |syntax, name, value| format!("const {} {name} = {value};", syntax.types[0]),
+    non_finite: |_, _, _| Vec::new(),
+    open,
+    close,
+    float_of_bits: "",
+    readable: Readable {
+        of_locals: &[],
+        of_functions: &[],
+        of_parameters: &[],
+        semantics: false,
+        integer_sign: false,
+    },
+};
+
+/// The operations as most shading languages write them.
+pub(super) fn spelling(op: Op) -> Spelling {
+    match op {
+        Op::Add => sum("{a+} + {b*}"),
+        Op::Sub => sum("{a+} - {b*}"),
+        Op::Mul => product("{a*}*{b-}"),
+        Op::Div => product("{a*}/{b-}"),
+        Op::Neg => negation("-{a!}"),
+        Op::Abs => atom("abs({a})"),
+        Op::Min => atom("min({a}, {b})"),
+        Op::Max => atom("max({a}, {b})"),
+        Op::Saturate => atom("saturate({a})"),
+        Op::Mad => atom("fma({a}, {b}, {c})"),
+        Op::Rcp => product("1.0/{a-}"),
+        Op::Sqrt => atom("sqrt({a})"),
+        Op::Rsqrt => atom("rsqrt({a})"),
+        Op::Exp2 => atom("exp2({a})"),
+        Op::Log2 => atom("log2({a})"),
+        Op::Exp => atom("exp({a})"),
+        Op::Log => atom("log({a})"),
+        Op::Pow => atom("pow({a}, {b})"),
+        Op::Sin => atom("sin({a})"),
+        Op::Cos => atom("cos({a})"),
+        Op::Tan => atom("tan({a})"),
+        Op::Asin => atom("asin({a})"),
+        Op::Acos => atom("acos({a})"),
+        Op::Atan => atom("atan({a})"),
+        Op::Atan2 => atom("atan2({a}, {b})"),
+        Op::Tanh => atom("tanh({a})"),
+        Op::Lerp => atom("mix({a}, {b}, {c})"),
+        Op::Step => atom("step({a}, {b})"),
+        Op::Select => select("({a+} < {b+}) ? {c+} : {d+}"),
+        Op::Floor => atom("floor({a})"),
+        Op::Fract => atom("fract({a})"),
+        Op::Sign => atom("sign({a})"),
+    }
+}
 
 /// A function that returns a float, a vector, or a structure.
 pub(super) fn open(syntax: &Syntax, signature: &Signature, lines: &mut Vec<String>) {

@@ -2,32 +2,26 @@
 
 use super::c_family;
 use super::syntax::{
-    PARENTHESES, SIGNS, Signature, Spelling, Syntax, WIDTH, atom, decimal, half_decimal_outward,
-    is_word, negation, product, select, sum,
+    Readable, Signature, Spelling, Syntax, atom, half_decimal_outward, is_word, product, sum,
 };
 use crate::op::Op;
 
 pub(super) const SYNTAX: Syntax = Syntax {
-    name: "glsl",
-    aliases: &["opengl", "webgl", "webgl2", "essl", "gl"],
-    extension: "glsl",
-    comment: "//",
     types: &["float", "vec2", "vec3", "vec4"],
     spelling,
-    power: None,
-    parentheses: PARENTHESES,
-    signs: SIGNS,
-    width: WIDTH,
     reserved,
-    written: str::to_owned,
-    half: false,
-    literal: decimal,
     // In ES 3.00 the initialiser of a `const` must be constant.
-    local: |name, value| format!("float {name} = {value};"),
+    local: |syntax, name, value| format!("{} {name} = {value};", syntax.types[0]),
     non_finite: |name, _, bits| vec![format!("float {name} = uintBitsToFloat({bits:#010x}u);")],
-    open: c_family::open,
     close,
     float_of_bits: "uintBitsToFloat",
+    readable: Readable {
+        of_locals: &["const", "highp", "precise"],
+        of_functions: &["highp", "precise"],
+        of_parameters: &["const", "in", "highp"],
+        ..c_family::SYNTAX.readable
+    },
+    ..c_family::SYNTAX
 };
 
 /// Half precision, in desktop versions. `#extension` must come before anything else.
@@ -41,7 +35,6 @@ pub(super) const HALF: Syntax = Syntax {
     half: true,
     // glslang truncates.
     literal: |value| half_decimal_outward(value) + "hf",
-    local: |name, value| format!("float16_t {name} = {value};"),
     non_finite: |name, _, bits| {
         vec![format!("float16_t {name} = float16_t(uintBitsToFloat({bits:#010x}u));")]
     },
@@ -55,39 +48,12 @@ pub(super) const HALF: Syntax = Syntax {
 
 fn spelling(op: Op) -> Spelling {
     match op {
-        Op::Add => sum("{a+} + {b*}"),
-        Op::Sub => sum("{a+} - {b*}"),
-        Op::Mul => product("{a*}*{b-}"),
-        Op::Div => product("{a*}/{b-}"),
-        Op::Neg => negation("-{a!}"),
-        Op::Abs => atom("abs({a})"),
-        Op::Min => atom("min({a}, {b})"),
-        Op::Max => atom("max({a}, {b})"),
         Op::Saturate => atom("clamp({a}, 0.0, 1.0)"),
         // There is no `fma` before ES 3.20 and GLSL 4.00.
         Op::Mad => sum("{a*}*{b-} + {c*}"),
-        Op::Rcp => product("1.0/{a-}"),
-        Op::Sqrt => atom("sqrt({a})"),
         Op::Rsqrt => atom("inversesqrt({a})"),
-        Op::Exp2 => atom("exp2({a})"),
-        Op::Log2 => atom("log2({a})"),
-        Op::Exp => atom("exp({a})"),
-        Op::Log => atom("log({a})"),
-        Op::Pow => atom("pow({a}, {b})"),
-        Op::Sin => atom("sin({a})"),
-        Op::Cos => atom("cos({a})"),
-        Op::Tan => atom("tan({a})"),
-        Op::Asin => atom("asin({a})"),
-        Op::Acos => atom("acos({a})"),
-        Op::Atan => atom("atan({a})"),
         Op::Atan2 => atom("atan({a}, {b})"),
-        Op::Tanh => atom("tanh({a})"),
-        Op::Lerp => atom("mix({a}, {b}, {c})"),
-        Op::Step => atom("step({a}, {b})"),
-        Op::Select => select("({a+} < {b+}) ? {c+} : {d+}"),
-        Op::Floor => atom("floor({a})"),
-        Op::Fract => atom("fract({a})"),
-        Op::Sign => atom("sign({a})"),
+        op => c_family::spelling(op),
     }
 }
 

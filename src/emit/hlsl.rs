@@ -1,32 +1,23 @@
 //! HLSL, for shader model 5 and later.
 
 use super::c_family;
-use super::syntax::{
-    PARENTHESES, SIGNS, Spelling, Syntax, WIDTH, atom, decimal, half_decimal_outward, is_word,
-    negation, product, select, sum,
-};
+use super::syntax::{Readable, Spelling, Syntax, atom, half_decimal_outward, is_word};
 use crate::op::Op;
 
 pub(super) const SYNTAX: Syntax = Syntax {
-    name: "hlsl",
-    aliases: &["directx", "dx", "fx"],
-    extension: "hlsl",
-    comment: "//",
     types: &["float", "float2", "float3", "float4"],
     spelling,
-    power: None,
-    parentheses: PARENTHESES,
-    signs: SIGNS,
-    width: WIDTH,
     reserved,
-    written: str::to_owned,
-    half: false,
-    literal: decimal,
-    local: |name, value| format!("const float {name} = {value};"),
     non_finite: |name, _, bits| vec![format!("const float {name} = asfloat({bits:#010x});")],
-    open: c_family::open,
-    close: c_family::close,
     float_of_bits: "asfloat",
+    readable: Readable {
+        of_locals: &["const", "precise"],
+        of_functions: &["static", "inline", "precise"],
+        of_parameters: &["const", "in"],
+        semantics: true,
+        integer_sign: true,
+    },
+    ..c_family::SYNTAX
 };
 
 /// Half precision, with `-enable-16bit-types` and shader model 6.2; without, `half` is `float`.
@@ -39,52 +30,25 @@ pub(super) const HALF: Syntax = Syntax {
     half: true,
     // glslang truncates.
     literal: |value| half_decimal_outward(value) + "h",
-    local: |name, value| format!("const half {name} = {value};"),
     non_finite: |name, _, bits| vec![format!("const half {name} = half(asfloat({bits:#010x}));")],
     ..SYNTAX
 };
 
 fn spelling(op: Op) -> Spelling {
     match op {
-        Op::Add => sum("{a+} + {b*}"),
-        Op::Sub => sum("{a+} - {b*}"),
-        Op::Mul => product("{a*}*{b-}"),
-        Op::Div => product("{a*}/{b-}"),
-        Op::Neg => negation("-{a!}"),
-        Op::Abs => atom("abs({a})"),
-        Op::Min => atom("min({a}, {b})"),
-        Op::Max => atom("max({a}, {b})"),
-        Op::Saturate => atom("saturate({a})"),
         // DXC takes `fma` on doubles only.
         Op::Mad => atom("mad({a}, {b}, {c})"),
         Op::Rcp => atom("rcp({a})"),
-        Op::Sqrt => atom("sqrt({a})"),
-        Op::Rsqrt => atom("rsqrt({a})"),
-        Op::Exp2 => atom("exp2({a})"),
-        Op::Log2 => atom("log2({a})"),
-        Op::Exp => atom("exp({a})"),
-        Op::Log => atom("log({a})"),
-        Op::Pow => atom("pow({a}, {b})"),
-        Op::Sin => atom("sin({a})"),
-        Op::Cos => atom("cos({a})"),
-        Op::Tan => atom("tan({a})"),
-        Op::Asin => atom("asin({a})"),
-        Op::Acos => atom("acos({a})"),
-        Op::Atan => atom("atan({a})"),
-        Op::Atan2 => atom("atan2({a}, {b})"),
-        Op::Tanh => atom("tanh({a})"),
         Op::Lerp => atom("lerp({a}, {b}, {c})"),
-        Op::Step => atom("step({a}, {b})"),
-        Op::Select => select("({a+} < {b+}) ? {c+} : {d+}"),
-        Op::Floor => atom("floor({a})"),
         Op::Fract => atom("frac({a})"),
         // `sign` is an int: the quotient of two would be rounded.
         Op::Sign => atom("float(sign({a}))"),
+        op => c_family::spelling(op),
     }
 }
 
 /// Some keywords may be written in any case (`Texture2D`, `TECHNIQUE`), so none is told by it.
-fn reserved(name: &str) -> bool {
+pub(super) fn reserved(name: &str) -> bool {
     // `_Atomic` and `__attribute` are DXC's, as they are clang's.
     let of_the_compiler = name.starts_with("__")
         || name.strip_prefix('_').is_some_and(|rest| rest.starts_with(|c: char| c.is_uppercase()));

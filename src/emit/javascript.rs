@@ -1,30 +1,21 @@
 //! JavaScript for a page: f32 arithmetic, each result rounded by `Math.fround`. A multiply-add is
 //! rounded to f64 before, so it can differ from a fused one in the last place.
 
-use super::syntax::{PARENTHESES, SIGNS, Signature, Spelling, Syntax, atom, is_word, negation};
+use super::c_family;
+use super::syntax::{Signature, Spelling, Syntax, atom, is_word, negation};
 use crate::op::Op;
 
 pub(super) const SYNTAX: Syntax = Syntax {
-    name: "javascript",
-    aliases: &[],
-    extension: "js",
-    comment: "//",
-    types: &[],
     spelling,
-    power: None,
-    parentheses: PARENTHESES,
-    signs: SIGNS,
     width: 200,
     reserved: |name| is_word(WORDS, name),
-    written: str::to_owned,
-    half: false,
     // The f64 that the f32 is: what JavaScript makes of the shorter one is another number.
     literal: |value| format!("{:?}", f64::from(value)),
-    local: |name, value| format!("const {name} = {value};"),
+    local: |_, name, value| format!("const {name} = {value};"),
     non_finite: |name, _, bits| vec![format!("const {name} = {};", non_finite(bits))],
     open,
     close,
-    float_of_bits: "",
+    ..c_family::SYNTAX
 };
 
 fn spelling(op: Op) -> Spelling {

@@ -1,31 +1,26 @@
 //! LaTeX: an `align*` of amsmath, an equation a statement.
 
+use super::c_family;
 use super::syntax::{
-    SIGNS, Signature, Spelling, Syntax, atom, is_word, negation, power, product, select, sum,
+    Signature, Spelling, Syntax, atom, is_word, negation, power, product, select, sum,
 };
 use crate::op::Op;
 use crate::program::format_constant;
 
 pub(super) const SYNTAX: Syntax = Syntax {
-    name: "latex",
-    aliases: &["tex"],
-    extension: "tex",
     comment: "%",
-    types: &[],
     spelling,
     power: Some("{a!}^{{n}}"),
     parentheses: [r"\left(", r"\right)"],
-    signs: SIGNS,
     width: 200,
     reserved: |_| false,
     written,
-    half: false,
     literal,
-    local: |name, value| format!(r"{name} &= {} \\", typeset(value)),
+    local: |_, name, value| format!(r"{name} &= {} \\", typeset(value)),
     non_finite: |name, _, bits| vec![format!(r"{} &= {} \\", written(name), non_finite(bits))],
     open: |_, _, lines| lines.push(r"\begin{align*}".to_owned()),
     close,
-    float_of_bits: "",
+    ..c_family::SYNTAX
 };
 
 fn spelling(op: Op) -> Spelling {

@@ -1,15 +1,12 @@
 //! MathML Core, which browsers typeset by themselves: a table of equations, one a statement.
 
+use super::c_family;
 use super::syntax::{Signature, Spelling, Syntax, atom, negation, power, product, select, sum};
 use crate::op::Op;
 use crate::program::format_constant;
 
 pub(super) const SYNTAX: Syntax = Syntax {
-    name: "mathml",
-    aliases: &[],
-    extension: "html",
     comment: "",
-    types: &[],
     spelling,
     power: Some("<msup>{a!}<mn>{n}</mn></msup>"),
     parentheses: ["<mrow><mo>(</mo>", "<mo>)</mo></mrow>"],
@@ -18,15 +15,14 @@ pub(super) const SYNTAX: Syntax = Syntax {
     width: 1100,
     reserved: |_| false,
     written,
-    half: false,
     literal,
-    local: row,
+    local: |_, name, value| row(name, value),
     non_finite: |name, _, bits| vec![row(&written(name), non_finite(bits))],
     open: |_, _, lines| {
         lines.push("<math display=\"block\"><mtable class=\"equations\">".to_owned());
     },
     close: |_: &Syntax, _: &Signature, lines| lines.push("</mtable></math>".to_owned()),
-    float_of_bits: "",
+    ..c_family::SYNTAX
 };
 
 /// Between two factors.

@@ -33,8 +33,10 @@ mod body;
 mod c;
 mod c_family;
 mod glsl;
+mod header;
 mod hlsl;
 mod javascript;
+mod language;
 mod latex;
 mod mathml;
 mod msl;
@@ -42,125 +44,20 @@ mod naming;
 mod python;
 mod read;
 mod rust;
+mod slang;
 mod syntax;
 mod wgsl;
 
+pub use header::header_lines;
+pub use language::{Language, UnknownLanguage};
 pub use read::{
     MAX_SNIPPET, Precision, ReadBack, ReadError, Stated, StatedError, formula_line, read_back,
 };
 
-use crate::printable::is_hidden;
 use crate::program::{Names, Program};
-use crate::suggest::did_you_mean;
 use body::Syntaxes;
 use naming::Naming;
-use std::fmt;
 use syntax::Syntax;
-
-/// A language that programs can be written in.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub enum Language {
-    /// Direct3D, Unity, Unreal; shader model 5 and later.
-    Hlsl,
-    /// WebGPU.
-    Wgsl,
-    /// OpenGL, Vulkan, WebGL2: what `#version 300 es` and desktop GLSL have in common.
-    Glsl,
-    /// Metal, with `using namespace metal`.
-    Msl,
-    /// C99, and C++.
-    C,
-    Rust,
-    /// Of numpy arrays.
-    Python,
-    /// `align*`, for a paper.
-    Latex,
-}
-
-/// A name that is no language's.
-#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
-#[error("no language is called `{given}`{hint} (there are {known})")]
-pub struct UnknownLanguage {
-    pub given: String,
-    hint: String,
-    known: String,
-}
-
-impl Language {
-    pub const ALL: &'static [Language] = &[
-        Language::Hlsl,
-        Language::Wgsl,
-        Language::Glsl,
-        Language::Msl,
-        Language::C,
-        Language::Rust,
-        Language::Python,
-        Language::Latex,
-    ];
-
-    /// The shading languages: those that [`read_back`] understands.
-    pub const SHADING: &'static [Language] =
-        &[Language::Hlsl, Language::Wgsl, Language::Glsl, Language::Msl];
-
-    /// The language of this name or alias, in upper or lower case.
-    ///
-    /// # Errors
-    /// [`UnknownLanguage`] says which names there are.
-    pub fn from_name(name: &str) -> Result<Language, UnknownLanguage> {
-        let lower = name.to_ascii_lowercase();
-        let found = Language::ALL.iter().find(|language| {
-            language.name() == lower || language.syntax().aliases.contains(&lower.as_str())
-        });
-        found.copied().ok_or_else(|| {
-            let known: Vec<&str> = Language::ALL.iter().map(|language| language.name()).collect();
-            UnknownLanguage {
-                given: name.to_owned(),
-                hint: did_you_mean(&lower, known.iter().copied()),
-                known: known.join(", "),
-            }
-        })
-    }
-
-    /// The name on the command line.
-    pub fn name(self) -> &'static str {
-        self.syntax().name
-    }
-
-    /// What the name of a file in this language ends in, without the dot.
-    pub fn extension(self) -> &'static str {
-        self.syntax().extension
-    }
-
-    fn syntax(self) -> &'static Syntax {
-        match self {
-            Language::Hlsl => &hlsl::SYNTAX,
-            Language::Wgsl => &wgsl::SYNTAX,
-            Language::Glsl => &glsl::SYNTAX,
-            Language::Msl => &msl::SYNTAX,
-            Language::C => &c::SYNTAX,
-            Language::Rust => &rust::SYNTAX,
-            Language::Python => &python::SYNTAX,
-            Language::Latex => &latex::SYNTAX,
-        }
-    }
-
-    /// The syntax of its halves, if it has any.
-    fn half_syntax(self) -> Option<&'static Syntax> {
-        match self {
-            Language::Hlsl => Some(&hlsl::HALF),
-            Language::Wgsl => Some(&wgsl::HALF),
-            Language::Glsl => Some(&glsl::HALF),
-            Language::Msl => Some(&msl::HALF),
-            Language::C | Language::Rust | Language::Python | Language::Latex => None,
-        }
-    }
-}
-
-impl fmt::Display for Language {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(self.name())
-    }
-}
 
 /// What is to be written.
 #[derive(Clone, Copy, Debug)]
@@ -223,9 +120,8 @@ fn written(syntaxes: Syntaxes, snippet: &Snippet) -> String {
     let mut lines: Vec<String> = Vec::new();
     // What has no comments would show them, or take them for its own.
     if !syntax.comment.is_empty() {
-        let header = header.iter().flat_map(|line| line.lines());
-        lines.extend(header.map(|line| comment(syntax, line)));
-        lines.extend(naming.renamed().iter().map(|line| comment(syntax, line)));
+        lines.extend(header::commented(syntax.comment, header));
+        lines.extend(header::commented(syntax.comment, &naming.renamed()));
     }
     (syntax.open)(syntax, &signature, &mut lines);
     let statements = body::statements(syntaxes, program, &signature, &mut naming);
@@ -242,14 +138,4 @@ fn function_name(function: &str, names: &Names) -> String {
         }
         _ => function.to_owned(),
     }
-}
-
-/// A comment of one line whatever `text` holds: more characters than `\n` end a line in WGSL,
-/// those that turn its direction show other code than is compiled, and a backslash at its end continues it in HLSL, GLSL and C.
-fn comment(syntax: &Syntax, text: &str) -> String {
-    let mut text = text.replace(is_hidden, " ").trim_end().to_owned();
-    if text.ends_with('\\') {
-        text.push_str(" .");
-    }
-    format!("{} {text}", syntax.comment).trim_end().to_owned()
 }

@@ -1,34 +1,23 @@
 //! MSL, the Metal shading language, under `using namespace metal`.
 
 use super::c_family;
-use super::syntax::{
-    PARENTHESES, SIGNS, Spelling, Syntax, WIDTH, atom, decimal, half_decimal, is_word, negation,
-    product, select, sum,
-};
+use super::syntax::{Readable, Syntax, half_decimal, is_word, product};
 use crate::op::Op;
 
 pub(super) const SYNTAX: Syntax = Syntax {
-    name: "msl",
-    aliases: &["metal"],
-    extension: "metal",
-    comment: "//",
     types: &["float", "float2", "float3", "float4"],
-    spelling,
-    power: None,
-    parentheses: PARENTHESES,
-    signs: SIGNS,
-    width: WIDTH,
     reserved,
-    written: str::to_owned,
-    half: false,
-    literal: decimal,
-    local: |name, value| format!("const float {name} = {value};"),
     non_finite: |name, _, bits| {
         vec![format!("const float {name} = as_type<float>({bits:#010x}u);")]
     },
-    open: c_family::open,
-    close: c_family::close,
     float_of_bits: "as_type",
+    readable: Readable {
+        of_locals: &["const", "constexpr"],
+        of_functions: &["static", "inline"],
+        of_parameters: &["const"],
+        ..c_family::SYNTAX.readable
+    },
+    ..c_family::SYNTAX
 };
 
 /// Half precision.
@@ -36,53 +25,15 @@ pub(super) const HALF: Syntax = Syntax {
     types: &["half", "half2", "half3", "half4"],
     spelling: |op| match op {
         Op::Rcp => product("1.0h/{a-}"),
-        op => spelling(op),
+        op => c_family::spelling(op),
     },
     half: true,
     literal: |value| half_decimal(value) + "h",
-    local: |name, value| format!("const half {name} = {value};"),
     non_finite: |name, _, bits| {
         vec![format!("const half {name} = half(as_type<float>({bits:#010x}u));")]
     },
     ..SYNTAX
 };
-
-fn spelling(op: Op) -> Spelling {
-    match op {
-        Op::Add => sum("{a+} + {b*}"),
-        Op::Sub => sum("{a+} - {b*}"),
-        Op::Mul => product("{a*}*{b-}"),
-        Op::Div => product("{a*}/{b-}"),
-        Op::Neg => negation("-{a!}"),
-        Op::Abs => atom("abs({a})"),
-        Op::Min => atom("min({a}, {b})"),
-        Op::Max => atom("max({a}, {b})"),
-        Op::Saturate => atom("saturate({a})"),
-        Op::Mad => atom("fma({a}, {b}, {c})"),
-        Op::Rcp => product("1.0/{a-}"),
-        Op::Sqrt => atom("sqrt({a})"),
-        Op::Rsqrt => atom("rsqrt({a})"),
-        Op::Exp2 => atom("exp2({a})"),
-        Op::Log2 => atom("log2({a})"),
-        Op::Exp => atom("exp({a})"),
-        Op::Log => atom("log({a})"),
-        Op::Pow => atom("pow({a}, {b})"),
-        Op::Sin => atom("sin({a})"),
-        Op::Cos => atom("cos({a})"),
-        Op::Tan => atom("tan({a})"),
-        Op::Asin => atom("asin({a})"),
-        Op::Acos => atom("acos({a})"),
-        Op::Atan => atom("atan({a})"),
-        Op::Atan2 => atom("atan2({a}, {b})"),
-        Op::Tanh => atom("tanh({a})"),
-        Op::Lerp => atom("mix({a}, {b}, {c})"),
-        Op::Step => atom("step({a}, {b})"),
-        Op::Select => select("({a+} < {b+}) ? {c+} : {d+}"),
-        Op::Floor => atom("floor({a})"),
-        Op::Fract => atom("fract({a})"),
-        Op::Sign => atom("sign({a})"),
-    }
-}
 
 fn reserved(name: &str) -> bool {
     name.starts_with('_')
@@ -135,7 +86,7 @@ const KEYWORDS: &str = "alignas alignof and and_eq asm atomic_bool atomic_int at
     depthcube_array INFINITY NAN DefaultConstructible assert atomic atomic_float atomic_ulong \
     complex imaginary llong object_data quad restrict ullong";
 
-/// §6 of the specification.
+/// §6 of the Metal Shading Language Specification 3.2.
 const FUNCTIONS: &str = "abs absdiff acos acosh addsat all any as_type asin asinh atan atan2 atanh \
     ceil clamp clz copysign cos cosh cospi cross ctz determinant dfdx dfdy discard_fragment \
     distance distance_squared divide dot exp exp10 exp2 extract_bits faceforward fabs fast fdim \

@@ -1,31 +1,18 @@
 //! Python, of numpy arrays of whatever shape, or of numbers.
 
-use super::syntax::{
-    PARENTHESES, SIGNS, Signature, Spelling, Syntax, WIDTH, atom, decimal, is_word, negation,
-    product, sum,
-};
+use super::c_family;
+use super::syntax::{Signature, Spelling, Syntax, atom, is_word, negation, product, sum};
 use crate::op::Op;
 
 pub(super) const SYNTAX: Syntax = Syntax {
-    name: "python",
-    aliases: &["py", "numpy"],
-    extension: "py",
     comment: "#",
-    types: &[],
     spelling,
-    power: None,
-    parentheses: PARENTHESES,
-    signs: SIGNS,
-    width: WIDTH,
     reserved,
-    written: str::to_owned,
-    half: false,
-    literal: decimal,
-    local: |name, value| format!("{name} = {value}"),
+    local: |_, name, value| format!("{name} = {value}"),
     non_finite: |name, _, bits| vec![format!("{name} = {}", non_finite(bits))],
     open,
     close,
-    float_of_bits: "",
+    ..c_family::SYNTAX
 };
 
 fn spelling(op: Op) -> Spelling {

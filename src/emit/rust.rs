@@ -1,31 +1,18 @@
 //! Rust, of `f32`.
 
-use super::syntax::{
-    PARENTHESES, SIGNS, Signature, Spelling, Syntax, WIDTH, atom, decimal, is_word, negation,
-    product, select, sum,
-};
+use super::c_family;
+use super::syntax::{Signature, Spelling, Syntax, atom, is_word, negation, product, select, sum};
 use crate::op::Op;
 
 pub(super) const SYNTAX: Syntax = Syntax {
-    name: "rust",
-    aliases: &["rs"],
-    extension: "rs",
-    comment: "//",
     types: &["f32"],
     spelling,
-    power: None,
-    parentheses: PARENTHESES,
-    signs: SIGNS,
-    width: WIDTH,
     reserved,
-    written: str::to_owned,
-    half: false,
-    literal: decimal,
-    local: |name, value| format!("let {name} = {value};"),
+    local: |_, name, value| format!("let {name} = {value};"),
     non_finite: |name, _, bits| vec![format!("let {name} = {};", non_finite(bits))],
     open,
     close,
-    float_of_bits: "",
+    ..c_family::SYNTAX
 };
 
 /// Functions, not methods: `2.0.exp2()` has no type, and `-x.abs()` is not what it seems.

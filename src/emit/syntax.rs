@@ -6,9 +6,6 @@ use half::f16;
 
 /// A language.
 pub(super) struct Syntax {
-    pub name: &'static str,
-    pub aliases: &'static [&'static str],
-    pub extension: &'static str,
     /// What begins a comment that ends with its line.
     pub comment: &'static str,
     /// The type of a float, and those of vectors as far as there are any.
@@ -31,7 +28,7 @@ pub(super) struct Syntax {
     pub half: bool,
     pub literal: fn(f32) -> String,
     /// The declaration of a local that is never changed.
-    pub local: fn(name: &str, value: &str) -> String,
+    pub local: fn(&Syntax, name: &str, value: &str) -> String,
     /// The declaration of a local that is infinite or NaN, and perhaps of one for its bits.
     pub non_finite: fn(name: &str, bits_name: &str, bits: u32) -> Vec<String>,
     /// Adds the lines above the function's body.
@@ -40,15 +37,20 @@ pub(super) struct Syntax {
     pub close: fn(&Syntax, &Signature, &mut Vec<String>),
     /// The function that makes a float of its bits.
     pub float_of_bits: &'static str,
+    pub readable: Readable,
 }
 
-/// What most languages have in common.
-pub(super) const PARENTHESES: [&str; 2] = ["(", ")"];
-
-pub(super) const SIGNS: [&str; 2] = [" + ", " - "];
-
-/// With the declaration around it a line stays within 100 columns.
-pub(super) const WIDTH: usize = 72;
+/// What a function that is read back may have, though none is emitted with it.
+pub(super) struct Readable {
+    /// The words before the type of a local that change no value.
+    pub of_locals: &'static [&'static str],
+    pub of_functions: &'static [&'static str],
+    pub of_parameters: &'static [&'static str],
+    /// Whether it may say where a value comes from or goes to: `: TEXCOORD0`.
+    pub semantics: bool,
+    /// Whether `sign` is an integer.
+    pub integer_sign: bool,
+}
 
 /// The names of a function's parts, as the language allows them.
 pub(super) struct Signature {
@@ -191,9 +193,9 @@ mod tests {
 
     #[test]
     fn every_spelling_writes_each_argument() {
-        let pages = [&javascript::SYNTAX, &mathml::SYNTAX];
-        for syntax in Language::ALL.iter().map(|language| language.syntax()).chain(pages) {
-            let language = syntax.name;
+        let pages = [("javascript", &javascript::SYNTAX), ("mathml", &mathml::SYNTAX)];
+        let languages = Language::ALL.iter().map(|known| (known.name(), known.syntax()));
+        for (language, syntax) in languages.chain(pages) {
             for &op in Op::ALL {
                 let template = (syntax.spelling)(op).template;
                 let mut arguments: Vec<usize> =

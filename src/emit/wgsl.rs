@@ -1,27 +1,14 @@
 //! WGSL.
 
-use super::syntax::{
-    PARENTHESES, SIGNS, Signature, Spelling, Syntax, WIDTH, atom, decimal, half_decimal, is_word,
-    negation, product, sum,
-};
+use super::c_family;
+use super::syntax::{Signature, Spelling, Syntax, atom, half_decimal, is_word};
 use crate::op::Op;
 
 pub(super) const SYNTAX: Syntax = Syntax {
-    name: "wgsl",
-    aliases: &["webgpu", "wgpu"],
-    extension: "wgsl",
-    comment: "//",
     types: &["f32", "vec2<f32>", "vec3<f32>", "vec4<f32>"],
     spelling,
-    power: None,
-    parentheses: PARENTHESES,
-    signs: SIGNS,
-    width: WIDTH,
     reserved,
-    written: str::to_owned,
-    half: false,
-    literal: decimal,
-    local: |name, value| format!("let {name} = {value};"),
+    local: |_, name, value| format!("let {name} = {value};"),
     // An infinite constant expression is an error; what a variable holds is no constant.
     non_finite: |name, bits_name, bits| {
         vec![
@@ -32,6 +19,7 @@ pub(super) const SYNTAX: Syntax = Syntax {
     open,
     close,
     float_of_bits: "bitcast",
+    ..c_family::SYNTAX
 };
 
 /// Half precision, where the device has `shader-f16`. `enable` must come before anything else.
@@ -54,39 +42,10 @@ pub(super) const HALF: Syntax = Syntax {
 
 fn spelling(op: Op) -> Spelling {
     match op {
-        Op::Add => sum("{a+} + {b*}"),
-        Op::Sub => sum("{a+} - {b*}"),
-        Op::Mul => product("{a*}*{b-}"),
-        Op::Div => product("{a*}/{b-}"),
-        Op::Neg => negation("-{a!}"),
-        Op::Abs => atom("abs({a})"),
-        Op::Min => atom("min({a}, {b})"),
-        Op::Max => atom("max({a}, {b})"),
-        Op::Saturate => atom("saturate({a})"),
-        Op::Mad => atom("fma({a}, {b}, {c})"),
-        Op::Rcp => product("1.0/{a-}"),
-        Op::Sqrt => atom("sqrt({a})"),
         Op::Rsqrt => atom("inverseSqrt({a})"),
-        Op::Exp2 => atom("exp2({a})"),
-        Op::Log2 => atom("log2({a})"),
-        Op::Exp => atom("exp({a})"),
-        Op::Log => atom("log({a})"),
-        Op::Pow => atom("pow({a}, {b})"),
-        Op::Sin => atom("sin({a})"),
-        Op::Cos => atom("cos({a})"),
-        Op::Tan => atom("tan({a})"),
-        Op::Asin => atom("asin({a})"),
-        Op::Acos => atom("acos({a})"),
-        Op::Atan => atom("atan({a})"),
-        Op::Atan2 => atom("atan2({a}, {b})"),
-        Op::Tanh => atom("tanh({a})"),
-        Op::Lerp => atom("mix({a}, {b}, {c})"),
-        Op::Step => atom("step({a}, {b})"),
         // The value where the condition is false comes first.
         Op::Select => atom("select({d}, {c}, {a+} < {b+})"),
-        Op::Floor => atom("floor({a})"),
-        Op::Fract => atom("fract({a})"),
-        Op::Sign => atom("sign({a})"),
+        op => c_family::spelling(op),
     }
 }
 
@@ -139,7 +98,7 @@ const KEYWORDS: &str = "alias break case const const_assert continue continuing 
     try type typedef typeid typename typeof union unless unorm unsafe unsized use using varying \
     virtual volatile wgsl where with writeonly yield";
 
-/// §6.9 (types and their generators), §6.3.1 (enumerants), and those of extensions that compilers know.
+/// §6.9 (types and their generators) and §6.3.1 (enumerants) of the same draft, and those of extensions that compilers know.
 const TYPE_NAMES: &str = "bool i32 u32 f32 f16 i64 u64 f64 array atomic ptr sampler \
     sampler_comparison vec2 vec3 vec4 vec2i vec3i vec4i vec2u vec3u vec4u vec2f vec3f vec4f vec2h \
     vec3h vec4h mat2x2 mat2x3 mat2x4 mat3x2 mat3x3 mat3x4 mat4x2 mat4x3 mat4x4 mat2x2f mat2x3f \
@@ -151,7 +110,7 @@ const TYPE_NAMES: &str = "bool i32 u32 f32 f16 i64 u64 f64 array atomic ptr samp
     texture_depth_cube_array binding_array acceleration_structure ray_query function private \
     workgroup uniform storage read write read_write";
 
-/// §17.
+/// The builtin functions: §17 of the W3C draft of 2025-08-09.
 const FUNCTIONS: &str = "abs acos acosh all any arrayLength asin asinh atan atan2 atanh bitcast \
     ceil clamp cos cosh countLeadingZeros countOneBits countTrailingZeros cross degrees \
     determinant distance dot dot4I8Packed dot4U8Packed dpdx dpdxCoarse dpdxFine dpdy dpdyCoarse \

@@ -5,9 +5,10 @@ use super::timing::Timing;
 use super::{Error, Report};
 use crate::cost::Profile;
 use crate::dataset::Dataset;
-use crate::emit::{self, Language, Snippet};
+use crate::emit::{self, Language, Snippet, header_lines};
 use crate::eval::OutputError;
 use crate::fit::Measure;
+use crate::program::Program;
 use crate::run::{self, Run};
 use crate::search::{Front, FrontMember, Published};
 use crate::wording::{axis_title, cut};
@@ -94,32 +95,31 @@ impl Priced<'_> {
     }
 
     fn member(&self, member: &FrontMember) -> Formula {
-        let text = |&language: &Language| run::snippet(self.run, member, language);
-        let texts: Vec<String> = Language::ALL.iter().map(text).collect();
-        // The comment lines that all languages have, after the first language's.
-        let header: Vec<String> = texts[0]
-            .lines()
-            .map_while(|line| line.strip_prefix("//"))
-            .map(|line| line.strip_prefix(' ').unwrap_or(line).to_owned())
-            .collect();
         Formula {
-            code: texts.iter().map(|text| Code::of(text, &header)).collect(),
-            header,
+            code: self.code(&member.program),
+            header: header_lines(&run::header(self.run, member)),
             verdict: serde_json::to_value(&member.verdict).expect("plain data"),
             ..self.formula(member)
         }
     }
 
     fn published(&self, known: &Published) -> Formula {
-        let (names, program) = (self.run.names(), &known.member.program);
-        let snippet = Snippet { program, names: &names, function: &self.run.name, header: &[] };
-        let body =
-            |&language: &Language| Code { comment: None, body: emit::emit(language, &snippet) };
         Formula {
             name: Some(known.name.clone()),
-            code: Language::ALL.iter().map(body).collect(),
+            code: self.code(&known.member.program),
             ..self.formula(&known.member)
         }
+    }
+
+    /// By language, without the header.
+    fn code(&self, program: &Program) -> Vec<Code> {
+        let names = self.run.names();
+        let snippet = Snippet { program, names: &names, function: &self.run.name, header: &[] };
+        let code = |&language: &Language| Code {
+            comment: language.comment(),
+            body: emit::emit(language, &snippet),
+        };
+        Language::ALL.iter().map(code).collect()
     }
 
     fn formula(&self, member: &FrontMember) -> Formula {

@@ -31,7 +31,7 @@ pub use member::MemberRecord;
 pub use merge::{Incompatible, merge};
 pub use record::{Budget, Run};
 pub use session::{Outcome, Phase, Progress, Session};
-pub use snippet::{domains, half_snippet, seeds, snippet};
+pub use snippet::{domains, half_snippet, header, seeds, snippet};
 pub use subject::{Subject, SubjectError, noted};
 pub use timetable::Timetable;
 pub use trace::{TRACE_COSTS, Trace, TracePoint, trace_csv};

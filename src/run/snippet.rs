@@ -47,7 +47,8 @@ pub fn half_snippet(
     emit::emit_half(language, &snippet, stay_single)
 }
 
-fn header(run: &Run, member: &FrontMember) -> Vec<String> {
+/// The comment above a member, as lines.
+pub fn header(run: &Run, member: &FrontMember) -> Vec<String> {
     let names = run.names();
     let (search, validation) = (member.search_error(), member.validation_error());
     let mut header = vec![

@@ -67,7 +67,10 @@ fn page(text: &str) -> Page {
 fn formula(program: &Program, names: &Names, text: &str, name: Option<&str>) -> Formula {
     let header = [text.to_owned()];
     let snippet = Snippet { program, names, function: text, header: &header };
-    let code = |&language: &Language| Code { comment: None, body: emit::emit(language, &snippet) };
+    let code = |&language: &Language| Code {
+        comment: language.comment(),
+        body: emit::emit(language, &snippet),
+    };
     Formula {
         name: name.map(str::to_owned),
         costs: vec![Some(3.0)],

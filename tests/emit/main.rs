@@ -167,6 +167,15 @@ fn no_name_stands_in_what_a_page_takes_for_script_or_elements() {
 }
 
 #[test]
+fn the_readme_names_every_language() {
+    let readme = include_str!("../../README.md").to_lowercase();
+    for language in Language::ALL {
+        let mut words = readme.split(|c: char| !c.is_alphanumeric());
+        assert!(words.any(|word| word == language.name()), "{language}");
+    }
+}
+
+#[test]
 fn languages_have_names() {
     for &language in Language::ALL {
         assert_eq!(Language::from_name(language.name()), Ok(language));

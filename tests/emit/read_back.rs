@@ -274,7 +274,7 @@ fn what_compilers_read_otherwise_is_refused() {
         ("return x; /* without end", "without an end"),
         ("return float2(x, y);", "2 values where the function returns 1"),
     ] {
-        for language in [Language::Hlsl, Language::Msl, Language::Glsl] {
+        for language in [Language::Hlsl, Language::Msl, Language::Slang, Language::Glsl] {
             let types = ["float2", "vec2"];
             let body = if language == Language::Glsl {
                 body.replace(types[0], types[1])
@@ -321,9 +321,11 @@ fn what_compilers_read_otherwise_is_refused() {
     for language in [Language::Msl, Language::Glsl] {
         assert!(c(language, "return max(x, 1);").unwrap_err().message.contains("ambiguous"));
     }
-    // `sign` is an integer in HLSL.
-    let message = c(Language::Hlsl, "return x + sign(x)/2;").unwrap_err().to_string();
-    assert!(message.contains("arithmetic of integers"), "{message}");
+    // `sign` is an integer in HLSL and Slang.
+    for language in [Language::Hlsl, Language::Slang] {
+        let message = c(language, "return x + sign(x)/2;").unwrap_err().to_string();
+        assert!(message.contains("arithmetic of integers"), "{message}");
+    }
     assert_eq!(c(Language::Msl, "return x + sign(x)/2;").unwrap(), 0.8);
 }
 
@@ -338,6 +340,11 @@ fn no_type_can_be_changed_unseen() {
             &Language::Hlsl,
             "float ",
             &["int ", "uint ", "half ", "min16float ", "double ", "bool ", "float2 "],
+        ),
+        (
+            &Language::Slang,
+            "float ",
+            &["int ", "uint ", "half ", "let ", "double ", "bool ", "float2 "],
         ),
         (
             &Language::Msl,

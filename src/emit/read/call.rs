@@ -68,8 +68,7 @@ impl Reader<'_> {
         match found {
             // Between 0 and 1 it is a saturation, which is found as such.
             None if name == "clamp" => self.clamp(args, of, at),
-            // In HLSL it is an integer.
-            Some((Op::Sign, args)) if self.language == Language::Hlsl => {
+            Some((Op::Sign, args)) if self.syntax.readable.integer_sign => {
                 self.called(Op::Sign, &args, of, Type::Integer)
             }
             Some((op, args)) => self.called(op, &args, of, of),

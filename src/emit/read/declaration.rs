@@ -80,12 +80,7 @@ impl Reader<'_> {
 
     /// `float f(float x)`
     fn c_head(&mut self) -> Read<Vec<String>> {
-        let qualifiers: &[&str] = match self.language {
-            Language::Glsl => &["highp", "precise"],
-            Language::Hlsl => &["static", "inline", "precise"],
-            _ => &["static", "inline"],
-        };
-        self.qualifiers(qualifiers);
+        self.qualifiers(self.syntax.readable.of_functions);
         if self.peek().is_none() {
             return self.error(self.offset(), "expected a function");
         }
@@ -123,13 +118,7 @@ impl Reader<'_> {
         let mut names: Vec<String> = Vec::new();
         while !self.take_symbol(')') {
             let at = self.offset();
-            let qualifiers: &[&str] = match self.language {
-                Language::Wgsl => &[],
-                Language::Glsl => &["const", "in", "highp"],
-                Language::Hlsl => &["const", "in"],
-                _ => &["const"],
-            };
-            self.qualifiers(qualifiers);
+            self.qualifiers(self.syntax.readable.of_parameters);
             let (name, of) = self.typed_name("a parameter")?;
             if names.len() >= usize::from(u16::MAX) {
                 return self.error(at, "a function has no more than 65535 parameters");
@@ -145,9 +134,10 @@ impl Reader<'_> {
         Ok(names)
     }
 
-    /// In HLSL, where a value comes from or goes to: `: TEXCOORD0`.
+    /// Where a value comes from or goes to: `: TEXCOORD0`.
     fn semantic(&mut self) -> Read<()> {
-        if self.language == Language::Hlsl && self.take_symbol(':') && self.take_name().is_none() {
+        let semantics = self.syntax.readable.semantics;
+        if semantics && self.take_symbol(':') && self.take_name().is_none() {
             return self.error(self.offset(), "expected a semantic after `:`");
         }
         Ok(())

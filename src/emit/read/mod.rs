@@ -128,8 +128,8 @@ pub fn read_back(language: Language, text: &str) -> Result<ReadBack, ReadError> 
         return Err(ReadError::at(text, 0, message));
     }
     let Some(half) = language.half_syntax() else {
-        let known: Vec<&str> = Language::SHADING.iter().map(|known| known.name()).collect();
-        let message = format!("{language} is not read back (but {} are)", known.join(", "));
+        let known = Language::names(Language::SHADING, "and");
+        let message = format!("{language} is not read back (but {known} are)");
         return Err(ReadError::at(text, 0, message));
     };
     let lexed = lex(language, text)?;

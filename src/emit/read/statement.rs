@@ -57,12 +57,7 @@ impl Reader<'_> {
     /// `const float t0 = x;`
     fn c_local(&mut self) -> Read<()> {
         let start = self.offset();
-        let allowed: &[&str] = match self.language {
-            Language::Glsl => &["const", "highp", "precise"],
-            Language::Hlsl => &["const", "precise"],
-            _ => &["const", "constexpr"],
-        };
-        let qualifiers = self.qualifiers(allowed);
+        let qualifiers = self.qualifiers(self.syntax.readable.of_locals);
         if self.is_symbol(1, '=') || !matches!(self.peek(), Some(Token::Name(_))) {
             return self.no_local(self.offset());
         }

@@ -98,29 +98,11 @@ pub struct Formula {
     pub script: String,
 }
 
-/// A function in some language: `comment` before each line of the header, and then the body.
+/// A function in some language, and what begins a comment of each line of the header above it.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Code {
-    /// Null where the header is in the body.
-    pub comment: Option<String>,
+    pub comment: &'static str,
     pub body: String,
-}
-
-impl Code {
-    /// `text` without the lines of the header, where it begins with them as comments.
-    pub fn of(text: &str, header: &[String]) -> Code {
-        let whole = || Code { comment: None, body: text.to_owned() };
-        let Some((comment, _)) = text.split_once(' ') else { return whole() };
-        let mut body = text;
-        for line in header {
-            let commented = format!("{comment} {line}");
-            match body.split_once('\n') {
-                Some((first, rest)) if first == commented.trim_end() => body = rest,
-                _ => return whole(),
-            }
-        }
-        Code { comment: Some(comment.to_owned()), body: body.to_owned() }
-    }
 }
 
 const TEMPLATE: &str = include_str!("page.html");
@@ -196,15 +178,6 @@ fn functions(page: &Page) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    #[test]
-    fn a_header_is_kept_once() {
-        let header = ["a → b".to_owned(), String::new()];
-        let code = Code::of("// a → b\n//\nfloat f();\n", &header);
-        assert_eq!(code, Code { comment: Some("//".into()), body: "float f();\n".into() });
-        let other = Code::of("# something else\n", &header);
-        assert_eq!(other, Code { comment: None, body: "# something else\n".into() });
-    }
 
     #[test]
     fn no_data_ends_its_script() {

@@ -2,7 +2,6 @@
 
 function codeText(one, language) {
   const { comment, body } = one.code[language];
-  if (comment === null) return body;
   return one.header.map((line) => `${comment} ${line}`.trimEnd() + "\n").join("") + body;
 }
 
