@@ -31,10 +31,20 @@ impl Member {
     }
 }
 
-/// By rising cost, those that err less than every one that costs no more, of equals the first by `ties`; `place` gives cost
-/// and error.
+/// By rising cost, those that err less than every one that costs no more, of equals the first by `ties`; `place` gives
+/// cost and error.
 pub(crate) fn undominated<T>(
+    all: Vec<T>,
+    place: impl Fn(&T) -> (f64, f64),
+    ties: impl Fn(&T, &T) -> Ordering,
+) -> Vec<T> {
+    near_the_least(all, 1.0, place, ties)
+}
+
+/// The same of those that err less than `within` times as much.
+pub(crate) fn near_the_least<T>(
     mut all: Vec<T>,
+    within: f64,
     place: impl Fn(&T) -> (f64, f64),
     ties: impl Fn(&T, &T) -> Ordering,
 ) -> Vec<T> {
@@ -45,9 +55,9 @@ pub(crate) fn undominated<T>(
     let mut least = f64::INFINITY;
     all.retain(|one| {
         let (_, error) = place(one);
-        let kept = error < least;
+        let near = error < least * within;
         least = least.min(error);
-        kept
+        near
     });
     all
 }

@@ -21,9 +21,10 @@
 //! | [`eval`] | the data-parallel interpreter, losses, normal equations, scores; the same programs in f64, f16, intervals |
 //! | [`fit`] | error measures; derivatives by constants, Levenberg–Marquardt, the least maximum; constants with few digits; models of one's own |
 //! | [`stability`] | verdicts: what is proved of a formula over its whole domain, or refuted |
+//! | [`archive`] | the Pareto archive |
 //! | [`scene`] | what a use needs of a dataset: ranges, fixed inputs, histograms, combined outputs |
-//! | [`archive`], [`search`] | the Pareto archive; problems, islands, variation, fronts |
-//! | [`emit`] | formulas as HLSL, WGSL, GLSL, MSL, and back; as C, Rust, Python, LaTeX |
+//! | [`search`] | problems and methods, islands, variation, fronts |
+//! | [`emit`] | formulas as HLSL, WGSL, GLSL, MSL, Slang, and back; as C, Rust, Python, LaTeX |
 //! | [`wording`] | fronts, verdicts and examinations in words |
 //! | [`run`] | a search under way, from its budget to its fronts; its record and folder; unions, what recurs |
 //! | [`quadrature`], [`microfacet`], [`targets`] | integration, BRDF models, ground truths |
@@ -65,9 +66,9 @@ pub mod eval;
 pub mod fit;
 pub mod stability;
 
+pub mod archive;
 pub mod scene;
 
-pub mod archive;
 pub mod search;
 
 pub mod emit;

@@ -7,8 +7,9 @@
 
 use lgp::cost::Profile;
 use lgp::dataset::{Column, Dataset, Split};
+use lgp::fit::Measure;
 use lgp::grammar::Grammar;
-use lgp::run::{Census, Checkpoint, Run};
+use lgp::run::{Census, Checkpoint, Run, TracePoint, trace_csv};
 use lgp::search::{Goal, Method, Problem, Search};
 use std::path::{Path, PathBuf};
 
@@ -54,7 +55,8 @@ fn written() -> Vec<u8> {
     };
     let mut census = Census::default();
     search.archive().members().iter().for_each(|one| census.count(&one.draft, &names, 0.5));
-    Checkpoint::bytes(&run, search.state(), "seconds\n", &census)
+    let trace = trace_csv(&[TracePoint::of(&search, 0.5)], Measure::Rmse);
+    Checkpoint::bytes(&run, search.state(), &trace, &census)
 }
 
 fn read(bytes: &[u8]) -> Result<Checkpoint, String> {
@@ -70,7 +72,7 @@ fn a_committed_checkpoint_is_read_as_it_was_written() {
     let checkpoint = read(&bytes).expect("raise LAYOUT, and write the golden checkpoint anew");
     assert!(checkpoint.to_bytes() == bytes, "raise LAYOUT, and write the golden checkpoint anew");
     assert_eq!(checkpoint.state.generation(), 1);
-    assert!(checkpoint.state.counts().admitted > 0);
+    assert!(!checkpoint.state.archive().members().is_empty());
 }
 
 fn with_checksum(mut content: Vec<u8>) -> Vec<u8> {
@@ -95,6 +97,18 @@ fn a_checkpoint_of_another_version_is_refused_as_such() {
         assert!(message.contains("not a checkpoint"), "{message}");
     }
     assert!(read(&bytes[..20]).unwrap_err().contains("too short"));
+}
+
+/// What a report is made of at the end of the search that goes on.
+#[test]
+fn a_trace_that_no_search_wrote_is_refused() {
+    let Checkpoint { run, state, trace, census } = read(&written()).unwrap();
+    let with = |trace: &str| read(&Checkpoint::bytes(&run, &state, trace, &census));
+    assert!(with(&trace).is_ok() && with("").is_ok());
+    for other in ["seconds\n", &trace.replace("rmse_5", "max_5"), &(trace.clone() + "1,2\n")] {
+        let message = with(other).unwrap_err();
+        assert!(message.contains("its trace"), "{message}");
+    }
 }
 
 /// Whatever bytes a checkpoint is made of, it is refused, or the search goes on without a panic.

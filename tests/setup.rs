@@ -5,6 +5,8 @@ use lgp::fit::Measure;
 use lgp::op::Op;
 use lgp::search::{Front, Goal, Method, Problem, Requirement, Search, Transform};
 use proptest::prelude::*;
+use proptest::test_runner::TestRunner;
+use std::sync::atomic::{AtomicUsize, Ordering};
 
 fn dataset() -> Dataset {
     let axes = [axis("x", 0.0..=1.0), axis("u", -1.0..=2.0)];
@@ -20,7 +22,7 @@ fn dataset() -> Dataset {
 /// Numbers that a caller may well give, and some that nobody means.
 fn number() -> impl Strategy<Value = f64> {
     prop_oneof![
-        4 => 0.0..50.0f64,
+        12 => 0.0..50.0f64,
         1 => prop::sample::select(vec![
             f64::NAN, f64::INFINITY, f64::NEG_INFINITY, -1.0, -0.0, 1e300, 1000.0, 1e-300,
         ]),
@@ -28,12 +30,15 @@ fn number() -> impl Strategy<Value = f64> {
 }
 
 fn count() -> impl Strategy<Value = usize> {
-    prop_oneof![6 => 0..6usize, 1 => prop::sample::select(vec![256, 257, 100_000, usize::MAX])]
+    prop_oneof![
+        20 => 1..6usize,
+        1 => prop::sample::select(vec![0, 256, 257, 100_000, usize::MAX]),
+    ]
 }
 
 fn requirement() -> impl Strategy<Value = Requirement> {
-    let place = || 0..4u16;
-    let output = || prop::option::of(0..4u16);
+    let place = || prop_oneof![12 => 0..2u16, 1 => 2..4u16];
+    let output = || prop::option::of(place());
     prop_oneof![
         (output(), number(), number()).prop_map(|(output, low, high)| Requirement::Range {
             output,
@@ -59,7 +64,7 @@ fn goal() -> impl Strategy<Value = Goal> {
     ]);
     let measure = prop::sample::select(Measure::ALL.to_vec());
     let requirements = prop::collection::vec(requirement(), 0..3);
-    (measure, requirements, prop::collection::vec(transform, 0..4), number()).prop_map(
+    (measure, requirements, prop_oneof![12 => prop::collection::vec(transform.clone(), 0..3), 1 => prop::collection::vec(transform, 3..5)], number()).prop_map(
         |(measure, requirements, transforms, max_cost)| Goal {
             measure,
             requirements,
@@ -70,36 +75,45 @@ fn goal() -> impl Strategy<Value = Goal> {
 }
 
 fn method() -> impl Strategy<Value = Method> {
-    let share = prop_oneof![3 => 0.0..=1.0f64, 1 => number()];
-    (any::<u64>(), count(), count(), share, count(), 0..4u64, count()).prop_map(
+    let share = prop_oneof![12 => 0.0..=1.0f64, 1 => number()];
+    (any::<u64>(), count(), count(), share, count(), count(), count()).prop_map(
         |(seed, islands, candidates, immigrants, bucket_size, migration_interval, subset)| Method {
             seed,
             islands,
             candidates,
             immigrants,
             bucket_size,
-            migration_interval,
+            migration_interval: migration_interval as u64,
             subset,
         },
     )
 }
 
-proptest! {
-    #![proptest_config(ProptestConfig { cases: 400, failure_persistence: None, ..Default::default() })]
-
-    #[test]
-    fn what_cannot_be_meant_is_refused(goal in goal(), method in method()) {
-        let Ok(problem) = Problem::of(dataset()).goal(goal).build() else { return Ok(()) };
+#[test]
+fn whatever_is_asked_is_refused_or_searched_for() {
+    let config = ProptestConfig { cases: 400, failure_persistence: None, ..Default::default() };
+    let (searched, refused) = (AtomicUsize::new(0), AtomicUsize::new(0));
+    let tried = TestRunner::new(config).run(&(goal(), method()), |(goal, method)| {
         // Such as are allowed and take long.
         let is_long = method.islands > 8 || method.candidates > 8;
-        let Ok(mut search) = Search::new(problem, method) else { return Ok(()) };
+        let problem = Problem::of(dataset()).goal(goal).build();
+        let search = problem.and_then(|problem| Search::new(problem, method));
+        let Ok(mut search) = search else {
+            refused.fetch_add(1, Ordering::Relaxed);
+            return Ok(());
+        };
         if !is_long {
+            searched.fetch_add(1, Ordering::Relaxed);
             search.advance();
-            let front = Front::of(&search);
             let most = search.problem().goal().max_cost;
+            let front = Front::of(&search);
             prop_assert!(front.members.iter().all(|member| member.cost <= most));
         }
-    }
+        Ok(())
+    });
+    tried.unwrap();
+    let (searched, refused) = (searched.into_inner(), refused.into_inner());
+    assert!(searched > 100 && refused > 50, "{searched} searched, {refused} refused");
 }
 
 #[test]

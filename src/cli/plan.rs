@@ -12,6 +12,7 @@ use crate::run::{Budget, Folder, Holding, RecordError, Session, Subject, in_the_
 use crate::search::{Goal, Method, Problem, Requirement, Transform, USUAL_GPU, USUAL_GRAMMAR};
 use crate::suggest::did_you_mean;
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
 
 /// A search that is ready to begin or to go on, the owner of its folder.
 pub struct Plan {
@@ -57,7 +58,7 @@ impl Plan {
             Some(out) => (asked_for(out, args.force)?, Holding::of(out) != Holding::NoRun),
             None => (free(&dataset.name, common)?, false),
         };
-        let problem = Problem::of(dataset.clone()).grammar(grammar).profile(profile).goal(goal);
+        let problem = Problem::of(Arc::clone(dataset)).grammar(grammar).profile(profile).goal(goal);
         let session = Session::new(problem.build()?, method)?
             .budget(budget(args))
             .guesses(&args.guess)?

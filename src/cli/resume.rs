@@ -11,6 +11,7 @@ use crate::run::{Budget, Checkpoint, Folder, Holding, RecordError, Run, Session,
 use crate::scene::Scene;
 use crate::search::{Goal, Problem, Transform};
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
 
 /// The plan of the run in the output folder; what is said of it again must be as it was.
 pub fn resumed(args: &Args, common: &Common) -> Result<Plan, Failure> {
@@ -50,7 +51,7 @@ pub fn resumed(args: &Args, common: &Common) -> Result<Plan, Failure> {
         let message = format!("{}: its record lacks the GPU profile", path.display());
         Failure::input(message)
     })?;
-    let problem = Problem::of(subject.dataset.clone())
+    let problem = Problem::of(Arc::clone(&subject.dataset))
         .grammar(run.grammar()?)
         .profile(profile)
         .goal(run.goal.clone())

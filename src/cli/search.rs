@@ -87,13 +87,12 @@ pub struct Args {
 
 pub fn run(args: &Args, common: &Common) -> Result<(), Failure> {
     let mut timings = Timings::new();
-    let stop = interrupts::watch();
     let Plan { subject, session } = Plan::of(args, common)?;
-    let mut session = session.since(timings.start()).until_asked(&stop);
-    let run = session.record();
     let profile = session.search().problem().profile();
-    let incumbents = subject.published(&run.dataset, profile)?;
+    let incumbents = subject.published(&session.record().dataset, profile)?;
     timings.note("reading");
+    let stop = interrupts::watch();
+    let mut session = session.since(timings.start()).until_asked(&stop);
     session.begin().map_err(|error| match error {
         SetupError::TooMany { .. } => Failure::usage(format!("--exhaustive: {error}")),
         error => error.into(),

@@ -10,10 +10,7 @@ use std::path::PathBuf;
 /// The page that compares the runs of several folders.
 ///
 /// # Errors
-/// [`Error::Record`]; [`Error::Incomparable`].
-///
-/// # Panics
-/// If there is no folder.
+/// [`Error::Record`]; [`Error::Incomparable`]; [`Error::NothingToCompare`] without a folder.
 pub fn comparison(folders: &[PathBuf]) -> Result<String, Error> {
     let mut runs = Vec::new();
     for folder in folders {
@@ -32,7 +29,7 @@ pub fn comparison(folders: &[PathBuf]) -> Result<String, Error> {
         };
         runs.push((run, compared));
     }
-    let first = runs[0].0.clone();
+    let first = runs.first().ok_or(Error::NothingToCompare)?.0.clone();
     check_comparable(folders, &runs, &first)?;
     let comparison = Comparison {
         title: format!("{}: {} runs compared", first.name, runs.len()),

@@ -25,6 +25,9 @@ pub enum Error {
     /// Without the dataset there is nothing to measure on.
     #[error("formulas are timed on the dataset, which is not there")]
     NoData,
+    /// No runs.
+    #[error("there are no runs to compare")]
+    NothingToCompare,
     /// Runs that are not of one problem.
     #[error("{one}: of another {what} than {other}; compare runs of one search problem")]
     Incomparable { one: String, other: String, what: &'static str },

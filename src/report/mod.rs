@@ -28,6 +28,7 @@ use crate::run::{
 use crate::search::{Front, Published};
 use crate::stability::Questions;
 use std::path::Path;
+use std::sync::Arc;
 
 /// The page of a run.
 pub const PAGE: &str = "report.html";
@@ -39,7 +40,7 @@ pub struct Report {
     pub front: Front,
     pub minimax: Front,
     /// The run's columns, if the data are still what they were.
-    pub dataset: Option<Dataset>,
+    pub dataset: Option<Arc<Dataset>>,
     pub published: Vec<Published>,
     /// How the search went on, if that was recorded.
     pub trace: Option<Trace>,
@@ -58,7 +59,7 @@ pub struct Written {
 
 impl Report {
     /// Of a search that has just ended.
-    pub fn of(outcome: &Outcome, dataset: Dataset, published: Vec<Published>) -> Report {
+    pub fn of(outcome: &Outcome, dataset: Arc<Dataset>, published: Vec<Published>) -> Report {
         let Outcome { run, front, minimax, trace, .. } = outcome.clone();
         let trace = Some(Trace::parse(&trace).expect("as it was just written"));
         let dataset = Some(dataset);

@@ -22,7 +22,7 @@ pub(super) fn page(report: &Report) -> Result<Page, Error> {
     let outputs = names.outputs.len();
     Ok(Page {
         title: format!("{}: {}", run.name, names.outputs.join(", ")),
-        facts: facts(run, dataset.as_ref()),
+        facts: facts(run, dataset.as_deref()),
         command: run.command.iter().map(|word| quoted(word)).collect::<Vec<_>>().join(" "),
         inputs: run.inputs.clone(),
         outputs: run.outputs.clone(),
@@ -39,7 +39,7 @@ pub(super) fn page(report: &Report) -> Result<Page, Error> {
             .unwrap_or_default(),
         samples: dataset.as_ref().map(|data| Table::of(&data.search, data.inputs.len())),
         trace: trace.clone(),
-        spheres: dataset.as_ref().and_then(PageSpheres::of),
+        spheres: dataset.as_deref().and_then(PageSpheres::of),
         languages: Language::ALL.iter().map(|language| language.name()).collect(),
     })
 }

@@ -7,8 +7,8 @@
 //! version that wrote it, and by [`LAYOUT`] alone.
 
 use super::folder::read_bytes;
-use super::{Census, RecordError, Run};
-use crate::dataset::Dataset;
+use super::{Census, RecordError, Run, Trace, trace_csv};
+use crate::fit::Measure;
 use crate::search::State;
 use serde::{Deserialize, Serialize};
 use std::path::Path;
@@ -92,6 +92,7 @@ impl Checkpoint {
             }
             state.check(&run.goal, &run.method, run.inputs.len(), run.outputs.len())?;
             census.check(run.inputs.len())?;
+            check_trace(&trace, run.goal.measure)?;
             Ok(run)
         };
         let run =
@@ -107,10 +108,17 @@ impl Checkpoint {
         let path = folder.join(super::folder::CHECKPOINT);
         Checkpoint::from_bytes(&path, &read_bytes(&path, MOST_BYTES)?)
     }
+}
 
-    /// Whether it is of this data: the whole dataset, and what a scene and a choice of columns left of it.
-    pub fn is_of(&self, whole: &Dataset, chosen: &Dataset) -> bool {
-        let names = chosen.names();
-        self.run.dataset_hash == whole.hash() && self.run.names() == names
+/// A trace goes on with lines under the same header; one that was not begun is empty.
+fn check_trace(trace: &str, measure: Measure) -> Result<(), String> {
+    if trace.is_empty() {
+        return Ok(());
     }
+    if !trace.starts_with(&trace_csv(&[], measure)) {
+        return Err("its trace has another header".into());
+    }
+    Trace::parse(trace)
+        .map(|_| ())
+        .map_err(|(line, reason)| format!("its trace, line {line}: {reason}"))
 }

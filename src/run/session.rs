@@ -124,7 +124,7 @@ impl Session {
     /// more.
     ///
     /// # Errors
-    /// [`SetupError`]: the checkpoint is not of this problem; [`ParseError`] of a guess.
+    /// [`SetupError::State`]: no search of this problem comes where the checkpoint is.
     pub fn resume(
         problem: impl Into<Arc<Problem>>,
         checkpoint: Checkpoint,
@@ -265,6 +265,7 @@ impl Session {
         self.search.enumerate_until(cost, most, &starting);
         let is_known = self.search.enumeration().is_some() || starting.is_past();
         if asked.is_some() && !is_known {
+            self.times = None;
             return Err(SetupError::TooMany { cost, most });
         }
         self.search.settle_until(&self.guesses, &searching);
@@ -343,7 +344,7 @@ impl Session {
     }
 
     /// Both fronts, polished and judged, as good as there is time for. `hear` is told, from any thread, how far
-    /// each phase has come; of its end by nothing, alone.
+    /// each phase has come, and by `None` that it is over.
     pub fn finish(&mut self, hear: &(dyn Fn(Phase, Option<f64>) + Sync)) -> Outcome {
         self.bring_up_to_date();
         let end = TracePoint::of(&self.search, self.run.seconds);

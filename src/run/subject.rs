@@ -6,6 +6,7 @@ use crate::dataset::{self, Comparable, Dataset, incumbents_for, load_incumbents}
 use crate::scene::{self, Scene};
 use crate::search::{FrontMember, Published};
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
 
 /// A dataset that cannot be worked on.
 #[derive(Debug, thiserror::Error)]
@@ -24,7 +25,7 @@ pub struct Subject {
     /// As its file has it.
     pub whole: Dataset,
     pub scene: Option<Scene>,
-    pub dataset: Dataset,
+    pub dataset: Arc<Dataset>,
 }
 
 impl Subject {
@@ -52,7 +53,7 @@ impl Subject {
             Some(scene) => choose(&scene.over(&whole)?.dataset()?)?,
             None => choose(&whole)?,
         };
-        Ok(Subject { whole, scene, dataset })
+        Ok(Subject { whole, scene, dataset: Arc::new(dataset) })
     }
 
     /// What a run was of, if that is still where the run found it, or as far from the run's folder as

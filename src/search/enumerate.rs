@@ -8,8 +8,8 @@
 
 use super::polish::reads_only_constants;
 use super::vary::{insertion_count, insertions, random_constant};
-use super::{Problem, Search, near_the_least};
-use crate::archive::Member;
+use super::{Problem, Search};
+use crate::archive::{Member, near_the_least};
 use crate::cost::CostScratch;
 use crate::deadline::Deadline;
 use crate::eval::Samples;
@@ -20,6 +20,7 @@ use rand::SeedableRng;
 use rand_chacha::ChaCha8Rng;
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
+use std::cmp::Ordering;
 use std::collections::HashSet;
 
 /// Fits of each structure, from different constants.
@@ -88,7 +89,7 @@ fn best_of(
         })
         .collect();
     let fitted: Vec<Member> = fitted.into_iter().flatten().collect();
-    let near = near_the_least(fitted, NEAR, |member| (member.cost, member.loss));
+    let near = near_the_least(fitted, NEAR, |one| (one.cost, one.loss), |_, _| Ordering::Equal);
     let finish = |fitter: &mut Fitter, mut member: Member| {
         if deadline.is_past() {
             return None;

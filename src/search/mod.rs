@@ -48,26 +48,6 @@ use std::collections::HashSet;
 use std::sync::Arc;
 use std::time::Duration;
 
-/// By rising cost, those whose error is less than `within` times that of every cheaper one.
-fn near_the_least<T>(
-    mut all: Vec<T>,
-    within: f64,
-    cost_and_error: impl Fn(&T) -> (f64, f64),
-) -> Vec<T> {
-    let order = |(cost, error): (f64, f64), (other_cost, other_error): (f64, f64)| {
-        cost.total_cmp(&other_cost).then(error.total_cmp(&other_error))
-    };
-    all.sort_by(|a, b| order(cost_and_error(a), cost_and_error(b)));
-    let mut least = f64::INFINITY;
-    all.retain(|one| {
-        let (_, error) = cost_and_error(one);
-        let near = error < least * within;
-        least = least.min(error);
-        near
-    });
-    all
-}
-
 /// For so long an island goes on before others have their turn: where a generation lasts long, none waits
 /// until there is no time left.
 const TURN: Duration = Duration::from_millis(100);
@@ -186,6 +166,11 @@ impl State {
     /// Generations that are done.
     pub fn generation(&self) -> u64 {
         self.generation
+    }
+
+    /// The best found so far, on the whole search split.
+    pub fn archive(&self) -> &Archive {
+        &self.archive
     }
 
     /// What became of all candidates so far.

@@ -1,8 +1,9 @@
 //! What is done to a formula before it is shown.
 
+use super::Problem;
 use super::front::FrontMember;
 use super::rounding::Rounding;
-use super::{Problem, near_the_least};
+use crate::archive::near_the_least;
 use crate::cost::CostScratch;
 use crate::dataset::Column;
 use crate::deadline::Deadline;
@@ -16,6 +17,7 @@ use crate::op::{MAX_ARITY, Op};
 use crate::program::{Arg, Draft, Names, Program, effective};
 use crate::simplify::{Simplifier, tidy};
 use rayon::prelude::*;
+use std::cmp::Ordering;
 
 /// Fits of the front go on until nothing is gained.
 const TO_CONVERGENCE: Stop = Stop { max_steps: 200, min_gain: 1e-7 };
@@ -220,7 +222,8 @@ fn looked_at(
         )
         .flatten()
         .collect();
-    let near = near_the_least(tried, within, |(cost, error, _)| (*cost, *error));
+    let near =
+        near_the_least(tried, within, |(cost, error, _)| (*cost, *error), |_, _| Ordering::Equal);
     near.into_iter().map(|(_, _, draft)| draft).collect()
 }
 

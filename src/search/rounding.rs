@@ -1,6 +1,7 @@
 //! Which of polished formulas win by more than the data's rounding.
 
 use super::{FrontMember, Problem};
+use crate::archive::undominated;
 use crate::eval::{OutputError, Score};
 use crate::fit::{Measure, rounding_errors};
 use crate::program::Arg;
@@ -17,19 +18,14 @@ pub(super) fn beyond_rounding(
         let score = rounding.at_least(&member.score);
         FrontMember { score, ..member.clone() }.deciding_error(measure)
     };
-    let mut ranked: Vec<(f64, FrontMember)> =
+    let ranked: Vec<(f64, FrontMember)> =
         members.into_iter().map(|member| (error(&member), member)).collect();
-    ranked.sort_by(|(a_error, a), (b_error, b)| {
-        let by_error = a.cost.total_cmp(&b.cost).then(a_error.total_cmp(b_error));
-        by_error.then(size(a).cmp(&size(b))).then_with(|| a.formula.cmp(&b.formula))
-    });
-    let mut least = f64::INFINITY;
-    ranked.retain(|(error, _)| {
-        let kept = *error < least;
-        least = least.min(*error);
-        kept
-    });
-    ranked.into_iter().map(|(_, member)| member).collect()
+    let kept = undominated(
+        ranked,
+        |(error, member)| (member.cost, *error),
+        |(_, a), (_, b)| size(a).cmp(&size(b)).then_with(|| a.formula.cmp(&b.formula)),
+    );
+    kept.into_iter().map(|(_, member)| member).collect()
 }
 
 /// Roundings that add up in a formula which takes large numbers from one another.
