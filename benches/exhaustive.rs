@@ -45,6 +45,16 @@ const CASES: &[Case] = &[
     },
 ];
 
+/// Fails to compile where a function of one argument is forgotten.
+const _: () = {
+    let (mut functions, mut i) = (0, 0);
+    while i < Op::ALL.len() {
+        functions += (Op::ALL[i].arity() == 1) as usize;
+        i += 1;
+    }
+    assert!(CASES.len() == functions, "a case for each function of one argument");
+};
+
 /// Arguments that are evaluated at once; they share their upper bits.
 const BATCH: u32 = 1 << 16;
 

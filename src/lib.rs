@@ -14,7 +14,7 @@
 //! | [`printable`], [`suggest`] | text from elsewhere made harmless; the nearest known name |
 //! | [`num`] | registers of lanes, and mathematics with the same bits at every width; low-discrepancy points, sums |
 //! | [`op`] | the one table of operations, and what they mean |
-//! | [`program`] | instructions, verified programs, effective code, hashes, formula text |
+//! | [`program`] | instructions, verified programs, outer forms, effective code, hashes, formula text |
 //! | [`simplify`] | algebra on programs |
 //! | [`dataset`] | tables of samples, their files, the incumbents |
 //! | [`grammar`], [`cost`] | what may be written, what it costs on a GPU; their `.ron` files |

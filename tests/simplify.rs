@@ -13,6 +13,33 @@ fn simplified(draft: &Draft) -> Program {
     Program::verify(target).expect("simplification gives a program")
 }
 
+/// What the table shows of its operations, the rules know: no operation is forgotten there.
+#[test]
+fn what_one_operation_undoes_of_another_is_left_out() {
+    let functions: Vec<Op> = Op::ALL.iter().copied().filter(|op| op.arity() == 1).collect();
+    let apply = |op: Op, x: f32| op.apply([x, 0.0, 0.0, 0.0]);
+    let points: Vec<f32> =
+        (-40..40).map(|i| (i as f32 + 0.37) / 8.0).chain([1e-10, -1e-10]).collect();
+    let mut known = 0;
+    for &outer in &functions {
+        for &inner in &functions {
+            let pairs = points.iter().map(|&x| (x, apply(inner, x), apply(outer, apply(inner, x))));
+            let pairs: Vec<_> = pairs.filter(|(.., y)| y.is_finite()).collect();
+            let undone = pairs.iter().all(|(x, _, y)| (x - y).abs() <= 1e-4 * (x.abs() + 1e-6));
+            let idle = outer == inner && pairs.iter().all(|(_, once, y)| once == y);
+            let mut draft = Draft { inputs: 1, ..Draft::default() };
+            let once = draft.push(inner, &[Arg::Input(0)]);
+            let twice = draft.push(outer, &[once]);
+            draft.outputs = vec![twice];
+            let left = simplified(&draft).instrs.len();
+            assert!(!undone || left == 0, "{outer}({inner}(x)) is x");
+            assert!(!idle || left <= 1, "{outer}({inner}(x)) is {inner}(x)");
+            known += usize::from(undone || idle);
+        }
+    }
+    assert!(known > 10, "{known}");
+}
+
 /// Operations whose rounding stays small next to their arguments, so that values can be compared.
 const TAME: [Op; 12] = [
     Op::Add,

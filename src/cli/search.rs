@@ -52,8 +52,8 @@ pub struct Args {
     /// `bias.range=0..1` is for one output
     #[arg(long, value_name = "CONDITION", value_delimiter = ',')]
     pub(super) require: Vec<String>,
-    /// Search by way of a function of an output, rcp, log2 or sqrt, the error measured on the
-    /// output itself
+    /// Search for a function of an output (rcp, log2 or sqrt) within its inverse, which every formula
+    /// pays for unless algebra removes it; the error is measured on the output itself
     #[arg(long, value_name = "OUTPUT=F", value_delimiter = ',')]
     pub(super) transform: Vec<String>,
     /// Populations that evolve apart (part of what a seed repeats) [default: 8]

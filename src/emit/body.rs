@@ -1,9 +1,10 @@
 //! The statements of a function, all of one precision or of two.
 
 use super::naming::Naming;
-use super::syntax::{Binding, Signature, Spelling, Syntax, pieces, power};
+use super::syntax::{Binding, Signature, Spelling, Syntax, Written, pieces, power};
 use crate::eval::{Arithmetic, Half};
 use crate::op::{MAX_ARITY, Op};
+use crate::program::spelling::{filled, move_signs, negated_product};
 use crate::program::{Arg, Program};
 use half::f16;
 
@@ -133,13 +134,10 @@ fn use_counts(program: &Program, forms: &[Form]) -> Vec<u32> {
     counts
 }
 
-/// How a reader of a value writes it.
+/// What a reader of a value writes for it.
 #[derive(Clone)]
 struct Code {
-    text: String,
-    binding: Binding,
-    /// The negated value and how it binds, where that takes a sign away.
-    negated: Option<(String, Binding)>,
+    written: Written,
     /// Whether it is a whole expression, that could be given a name instead.
     in_place: bool,
     /// Whether its value is a half.
@@ -148,14 +146,12 @@ struct Code {
 
 impl Code {
     fn name(text: String, syntax: &Syntax) -> Code {
-        let binding = Binding::Atom;
-        Code { text, binding, negated: None, in_place: false, half: syntax.half }
+        Code { written: Written::name(text), in_place: false, half: syntax.half }
     }
 
     /// The negated value, where that takes a sign away.
     fn turned(&self) -> Option<Code> {
-        let (text, binding) = self.negated.clone()?;
-        Some(Code { text, binding, negated: None, ..*self })
+        Some(Code { written: self.written.turned()?, ..*self })
     }
 }
 
@@ -187,12 +183,12 @@ impl Body<'_, '_> {
         };
         let same = syntax.half == self.syntaxes.function.half;
         if let Some(output) = output.filter(|_| same) {
-            code = self.declare(self.signature.outputs[output].clone(), &code.text, syntax);
+            code = self.declare(self.signature.outputs[output].clone(), &code.written.text, syntax);
         } else if count > 1 && code.in_place {
             self.name(&mut code);
         }
         if let Some(output) = output.filter(|_| !same) {
-            let value = self.converted(code.clone(), self.syntaxes.function).text;
+            let value = self.converted(code.clone(), self.syntaxes.function).written.text;
             let name = self.signature.outputs[output].clone();
             self.declare(name, &value, self.syntaxes.function);
         }
@@ -213,7 +209,7 @@ impl Body<'_, '_> {
                 continue;
             }
             let syntax = self.syntaxes.function;
-            let value = self.argument(arg, syntax).text;
+            let value = self.argument(arg, syntax).written.text;
             self.declare(self.signature.outputs[o].clone(), &value, syntax);
         }
     }
@@ -221,7 +217,7 @@ impl Body<'_, '_> {
     fn power(&mut self, base: Arg, count: u32, syntax: &'static Syntax) -> Code {
         let template = syntax.power.expect("powers are formed where they can be written");
         let mut code = self.expression(power(template), &[base], syntax);
-        code.text = code.text.replace("{n}", &count.to_string());
+        code.written.text = code.written.text.replace("{n}", &count.to_string());
         code
     }
 
@@ -251,31 +247,17 @@ impl Body<'_, '_> {
         Some(rounded(known(args[0])? * known(args[1])?, syntax))
     }
 
-    /// Signs are moved to where the fewest stand. That is exact: a rounded result is that of the
-    /// negated arguments, negated, and a sum is the difference from the negated term.
     fn written(&mut self, op: Op, mut args: Vec<Code>, syntax: &'static Syntax) -> Code {
-        let turned: Vec<Option<Code>> = args.iter().map(Code::turned).collect();
-        match (op, turned.as_slice()) {
-            (Op::Neg, [Some(value)]) => {
-                let mut code = value.clone();
-                code.in_place = args[0].in_place;
-                return code;
-            }
-            (Op::Add, [Some(_), None]) => args.swap(0, 1),
-            (Op::Sub, [Some(a), Some(b)]) => args = vec![b.clone(), a.clone()],
-            (Op::Mul | Op::Div, [Some(a), Some(b)]) => args = vec![a.clone(), b.clone()],
-            _ => {}
+        if let (Op::Neg, Some(code)) = (op, args[0].turned()) {
+            return code;
         }
+        move_signs(op, &mut args, Code::turned);
         let mut code = self.expression_of((syntax.spelling)(op), &mut args, syntax);
-        code.negated = match op {
-            Op::Neg => Some((args[0].text.clone(), args[0].binding)),
+        code.written.negated = match op {
+            Op::Neg => Some((args[0].written.text.clone(), args[0].written.binding)),
             Op::Mul | Op::Div => {
-                let first = args.iter().position(|arg| arg.negated.is_some());
-                first.and_then(|i| {
-                    args[i] = args[i].turned()?;
-                    let spelling = (syntax.spelling)(op);
-                    Some((self.filled(&spelling, &args), spelling.binding))
-                })
+                let Syntax { parentheses, signs, .. } = *self.syntaxes.function;
+                negated_product(&(syntax.spelling)(op), &writings(&args), parentheses, signs)
             }
             _ => None,
         };
@@ -304,18 +286,18 @@ impl Body<'_, '_> {
         let mut text = self.filled(&spelling, args);
         while text.len() > syntax.width {
             let in_place = args.iter_mut().filter(|arg| arg.in_place);
-            let Some(longest) = in_place.max_by_key(|arg| arg.text.len()) else { break };
+            let Some(longest) = in_place.max_by_key(|arg| arg.written.text.len()) else { break };
             self.name(longest);
             text = self.filled(&spelling, args);
         }
-        let binding = spelling.binding;
-        Code { text, binding, negated: None, in_place: true, half: syntax.half }
+        let written = Written::new(text, spelling.binding);
+        Code { written, in_place: true, half: syntax.half }
     }
 
     /// Makes the expression a local.
     fn name(&mut self, code: &mut Code) {
         let name = self.naming.temporary();
-        *code = self.declare(name, &code.text, self.syntaxes.of_halves(code.half));
+        *code = self.declare(name, &code.written.text, self.syntaxes.of_halves(code.half));
     }
 
     /// The value in the precision of its reader.
@@ -323,36 +305,13 @@ impl Body<'_, '_> {
         if code.half == to.half {
             return code;
         }
-        let text = format!("{}({})", to.types[0], code.text);
-        Code { text, binding: Binding::Atom, negated: None, in_place: true, half: to.half }
+        let written = Written::name(format!("{}({})", to.types[0], code.written.text));
+        Code { written, in_place: true, half: to.half }
     }
 
-    /// The template with the arguments in its places.
     fn filled(&self, spelling: &Spelling, args: &[Code]) -> String {
-        let [open, close] = self.syntaxes.function.parentheses;
-        let (places, rest) = pieces(spelling.template);
-        let mut text = String::new();
-        for (before, place) in places {
-            let turned = args[place.argument].turned();
-            let (before, arg) = match (turned, self.other_sign(before)) {
-                (Some(turned), Some(before)) => (before, turned),
-                _ => (before.to_owned(), args[place.argument].clone()),
-            };
-            text.push_str(&before);
-            if arg.binding >= place.least {
-                text.push_str(&arg.text);
-            } else {
-                text.extend([open, &arg.text, close]);
-            }
-        }
-        text + rest
-    }
-
-    /// The text with a minus for the plus at its end, or the other way round.
-    fn other_sign(&self, before: &str) -> Option<String> {
-        let [plus, minus] = self.syntaxes.function.signs;
-        let exchanged = |from: &str, to: &str| Some(before.strip_suffix(from)?.to_owned() + to);
-        exchanged(plus, minus).or_else(|| exchanged(minus, plus))
+        let Syntax { parentheses, signs, .. } = *self.syntaxes.function;
+        filled(spelling, &writings(args), parentheses, signs)
     }
 
     fn argument(&mut self, arg: Arg, to: &'static Syntax) -> Code {
@@ -377,10 +336,8 @@ impl Body<'_, '_> {
         if !value.is_finite() {
             return self.non_finite(value, syntax);
         }
-        let negative = value.is_sign_negative();
-        let binding = if negative { Binding::Negation } else { Binding::Atom };
-        let negated = negative.then(|| ((syntax.literal)(-value), Binding::Atom));
-        Code { text: (syntax.literal)(value), binding, negated, in_place: false, half: syntax.half }
+        let written = Written::number(value, syntax.literal);
+        Code { written, in_place: false, half: syntax.half }
     }
 
     fn non_finite(&mut self, value: f32, syntax: &'static Syntax) -> Code {
@@ -402,4 +359,8 @@ impl Body<'_, '_> {
         self.non_finite.push((bits, syntax.half, name.clone()));
         Code::name(name, syntax)
     }
+}
+
+fn writings(args: &[Code]) -> Vec<&Written> {
+    args.iter().map(|arg| &arg.written).collect()
 }

@@ -1,9 +1,8 @@
 //! LaTeX: an `align*` of amsmath, an equation a statement.
 
 use super::c_family;
-use super::syntax::{
-    Signature, Spelling, Syntax, atom, is_word, negation, power, product, select, sum,
-};
+use super::syntax::{Signature, Spelling, Syntax, atom, negation, power, product, select, sum};
+use super::typeset::{Name, greek};
 use crate::op::Op;
 use crate::program::format_constant;
 
@@ -96,47 +95,26 @@ fn non_finite(bits: u32) -> &'static str {
     }
 }
 
-/// `n_dot_v` as a dot product, a Greek letter or a single one as a symbol, what follows an
-/// underscore and digits at the end as an index, and other words upright.
+/// What [`Name`] tells apart; words of several letters upright.
 fn written(name: &str) -> String {
-    if let Some((left, right)) = name.split_once("_dot_") {
-        return format!(r"({} \cdot {})", vector(left), vector(right));
-    }
-    let digits = name.len() - name.trim_end_matches(|c: char| c.is_ascii_digit()).len();
-    let (word, number) = name.split_at(name.len() - digits);
-    let word = word.strip_suffix('_').unwrap_or(word);
-    match (word.split_once('_'), number) {
-        _ if word.is_empty() => format!(r"\mathrm{{{}}}", escaped(name)),
-        (None, "") => symbol(word),
-        (None, number) => format!("{}_{{{number}}}", symbol(word)),
-        (Some(_), _) if symbol(word.split('_').next().unwrap_or("")).starts_with(r"\mathrm") => {
-            format!(r"\mathrm{{{}}}", escaped(name))
+    let upright = |word: &str| format!(r"\mathrm{{{}}}", word.replace('_', r"\_"));
+    let symbol = |word: &str| match greek(word) {
+        Some((name, _)) => format!(r"\{name}"),
+        None if word.len() == 1 && word != "_" => word.to_owned(),
+        None => upright(word),
+    };
+    match Name::of(name) {
+        Name::Dot(vectors) => {
+            let [left, right] = vectors.map(|name| upright(name).replace("mathrm", "mathbf"));
+            format!(r"({left} \cdot {right})")
         }
-        (Some((word, index)), number) => {
-            format!(r"{}_{{\mathrm{{{}{number}}}}}", symbol(word), escaped(index))
+        Name::Word(word) => symbol(word),
+        Name::Indexed { word, index: "", number } => format!("{}_{{{number}}}", symbol(word)),
+        Name::Indexed { word, index, number } => {
+            format!("{}_{{{}}}", symbol(word), upright(&format!("{index}{number}")))
         }
     }
 }
-
-fn vector(name: &str) -> String {
-    format!(r"\mathbf{{{}}}", escaped(name))
-}
-
-fn symbol(word: &str) -> String {
-    match word {
-        _ if is_word(GREEK, word) => format!(r"\{word}"),
-        _ if word.len() == 1 => word.to_owned(),
-        _ => format!(r"\mathrm{{{word}}}"),
-    }
-}
-
-fn escaped(name: &str) -> String {
-    name.replace('_', r"\_")
-}
-
-const GREEK: &str = "alpha beta gamma delta epsilon zeta eta theta iota kappa lambda mu nu xi pi \
-    rho sigma tau upsilon phi chi psi omega Gamma Delta Theta Lambda Xi Pi Sigma Upsilon Phi Psi \
-    Omega";
 
 #[cfg(test)]
 mod tests {

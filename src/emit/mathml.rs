@@ -2,6 +2,7 @@
 
 use super::c_family;
 use super::syntax::{Signature, Spelling, Syntax, atom, negation, power, product, select, sum};
+use super::typeset::{Name, greek};
 use crate::op::Op;
 use crate::program::format_constant;
 
@@ -99,72 +100,23 @@ fn non_finite(bits: u32) -> &'static str {
     }
 }
 
-/// As in LaTeX: `n_dot_v` as a dot product, a Greek letter or a single one as a symbol, what
-/// follows its underscore and digits at its end as an index, other words upright.
+/// As in LaTeX; other words are written as they are.
 fn written(name: &str) -> String {
-    if let Some((left, right)) = name.split_once("_dot_") {
-        let vector = |name| format!("<mi class=\"vector\" mathvariant=\"normal\">{name}</mi>");
-        return format!(
-            "<mrow><mo>(</mo>{}<mo>·</mo>{}<mo>)</mo></mrow>",
-            vector(left),
-            vector(right)
-        );
-    }
-    let word = name.trim_end_matches(|c: char| c.is_ascii_digit());
-    let number = &name[word.len()..];
-    let word = word.strip_suffix('_').unwrap_or(word);
-    match word.split_once('_') {
-        _ if word.is_empty() => format!("<mi>{name}</mi>"),
-        None if number.is_empty() => format!("<mi>{}</mi>", symbol(word)),
-        None => format!("<msub><mi>{}</mi><mn>{number}</mn></msub>", symbol(word)),
-        Some((first, index)) if symbol(first).chars().count() == 1 => {
-            format!("<msub><mi>{}</mi><mi>{index}{number}</mi></msub>", symbol(first))
+    let vector = |name| format!("<mi class=\"vector\" mathvariant=\"normal\">{name}</mi>");
+    let symbol = |word| greek(word).map_or(word, |(_, letter)| letter);
+    match Name::of(name) {
+        Name::Dot([left, right]) => {
+            format!("<mrow><mo>(</mo>{}<mo>·</mo>{}<mo>)</mo></mrow>", vector(left), vector(right))
         }
-        Some(_) => format!("<mi>{name}</mi>"),
+        Name::Word(word) => format!("<mi>{}</mi>", symbol(word)),
+        Name::Indexed { word, index: "", number } => {
+            format!("<msub><mi>{}</mi><mn>{number}</mn></msub>", symbol(word))
+        }
+        Name::Indexed { word, index, number } => {
+            format!("<msub><mi>{}</mi><mi>{index}{number}</mi></msub>", symbol(word))
+        }
     }
 }
-
-fn symbol(word: &str) -> &str {
-    let greek = GREEK.iter().find(|(name, _)| *name == word);
-    greek.map_or(word, |(_, letter)| letter)
-}
-
-const GREEK: [(&str, &str); 34] = [
-    ("alpha", "α"),
-    ("beta", "β"),
-    ("gamma", "γ"),
-    ("delta", "δ"),
-    ("epsilon", "ε"),
-    ("zeta", "ζ"),
-    ("eta", "η"),
-    ("theta", "θ"),
-    ("iota", "ι"),
-    ("kappa", "κ"),
-    ("lambda", "λ"),
-    ("mu", "μ"),
-    ("nu", "ν"),
-    ("xi", "ξ"),
-    ("pi", "π"),
-    ("rho", "ρ"),
-    ("sigma", "σ"),
-    ("tau", "τ"),
-    ("upsilon", "υ"),
-    ("phi", "φ"),
-    ("chi", "χ"),
-    ("psi", "ψ"),
-    ("omega", "ω"),
-    ("Gamma", "Γ"),
-    ("Delta", "Δ"),
-    ("Theta", "Θ"),
-    ("Lambda", "Λ"),
-    ("Xi", "Ξ"),
-    ("Pi", "Π"),
-    ("Sigma", "Σ"),
-    ("Upsilon", "Υ"),
-    ("Phi", "Φ"),
-    ("Psi", "Ψ"),
-    ("Omega", "Ω"),
-];
 
 #[cfg(test)]
 mod tests {

@@ -46,6 +46,7 @@ mod read;
 mod rust;
 mod slang;
 mod syntax;
+mod typeset;
 mod wgsl;
 
 pub use header::header_lines;

@@ -2,6 +2,9 @@
 
 use crate::op::Op;
 use crate::program::format_constant;
+pub(super) use crate::program::spelling::{
+    Binding, Spelling, Written, atom, negation, pieces, place, power, product, select, sum,
+};
 use half::f16;
 
 /// A language.
@@ -62,92 +65,6 @@ pub(super) struct Signature {
     pub result: String,
 }
 
-/// How tightly a piece of code binds.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
-pub(super) enum Binding {
-    Select,
-    Sum,
-    Product,
-    Negation,
-    Power,
-    Atom,
-}
-
-/// How an operation is written: `{a}`, `{b}`, `{c}`, `{d}` stand for its arguments, and a mark
-/// says how tightly the argument must bind to need no parentheses: none anything, `+` a sum,
-/// `*` a product, `-` a negation, `^` a power, `!` an atom. Other braces are the language's.
-pub(super) struct Spelling {
-    pub template: &'static str,
-    pub binding: Binding,
-}
-
-pub(super) const fn select(template: &'static str) -> Spelling {
-    Spelling { template, binding: Binding::Select }
-}
-
-pub(super) const fn sum(template: &'static str) -> Spelling {
-    Spelling { template, binding: Binding::Sum }
-}
-
-pub(super) const fn product(template: &'static str) -> Spelling {
-    Spelling { template, binding: Binding::Product }
-}
-
-pub(super) const fn negation(template: &'static str) -> Spelling {
-    Spelling { template, binding: Binding::Negation }
-}
-
-pub(super) const fn power(template: &'static str) -> Spelling {
-    Spelling { template, binding: Binding::Power }
-}
-
-pub(super) const fn atom(template: &'static str) -> Spelling {
-    Spelling { template, binding: Binding::Atom }
-}
-
-/// Where an argument stands in a template, and how tightly it must bind there.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) struct Place {
-    pub argument: usize,
-    pub least: Binding,
-}
-
-/// A template's places, each after the text before it, and the text after the last.
-pub(super) fn pieces(template: &str) -> (Vec<(&str, Place)>, &str) {
-    let mut pieces = Vec::new();
-    let (mut start, mut from) = (0, 0);
-    while let Some(brace) = template[from..].find('{').map(|i| from + i) {
-        match place(&template[brace..]) {
-            Some((place, length)) => {
-                pieces.push((&template[start..brace], place));
-                from = brace + length;
-                start = from;
-            }
-            None => from = brace + 1,
-        }
-    }
-    (pieces, &template[start..])
-}
-
-/// The place at the start of the text, and its length.
-pub(super) fn place(text: &str) -> Option<(Place, usize)> {
-    let (name, end) = match text.as_bytes() {
-        [b'{', name @ b'a'..=b'd', b'}', ..] => (*name, 2),
-        [b'{', name @ b'a'..=b'd', _, b'}', ..] => (*name, 3),
-        _ => return None,
-    };
-    let least = match &text[2..end] {
-        "" => Binding::Select,
-        "+" => Binding::Sum,
-        "*" => Binding::Product,
-        "-" => Binding::Negation,
-        "^" => Binding::Power,
-        "!" => Binding::Atom,
-        _ => return None,
-    };
-    Some((Place { argument: usize::from(name - b'a'), least }, end + 1))
-}
-
 /// The shortest decimal that reads back as `value` and that no compiler takes for an integer.
 pub(super) fn decimal(value: f32) -> String {
     // The shortest decimal of the largest number, …35e38, lies above it: out of range where it
@@ -189,7 +106,6 @@ pub(super) fn is_word(list: &str, name: &str) -> bool {
 mod tests {
     use super::*;
     use crate::emit::{Language, javascript, mathml};
-    use crate::op::MAX_ARITY;
 
     #[test]
     fn every_spelling_writes_each_argument() {
@@ -233,15 +149,5 @@ mod tests {
             }
         }
         assert_eq!(half_decimal_outward(f16::from_f32(0.07).to_f32()), "0.07001");
-    }
-
-    #[test]
-    fn braces_around_no_argument_are_text() {
-        let (places, rest) = pieces(r"\frac{{a}}{{b+}} {e} {a.} { d }");
-        let [("\\frac{", a), ("}{", b)] = places[..] else { panic!("{places:?}") };
-        assert_eq!(a, Place { argument: 0, least: Binding::Select });
-        assert_eq!(b, Place { argument: 1, least: Binding::Sum });
-        assert_eq!(rest, "} {e} {a.} { d }");
-        assert_eq!(MAX_ARITY, ["a", "b", "c", "d"].len());
     }
 }

@@ -7,11 +7,14 @@
 
 mod effective;
 mod hash;
+mod outer;
 mod rewrite;
+pub(crate) mod spelling;
 mod text;
 
 pub use effective::{effective, effective_into, use_counts};
 pub use hash::{Constants, structural_hash};
+pub use outer::Outer;
 pub use text::{
     FreeConstant, MAX_FORMULA, Names, ParseError, Parsed, Scope, format_constant, parse,
     parse_open, parse_template, print, print_expression, shortest,

@@ -2,7 +2,7 @@
 
 use super::View;
 use super::view::Input;
-use crate::program::{Arg, Draft, Program, effective};
+use crate::program::{Arg, Draft, Outer, Program, effective};
 use crate::simplify::Simplifier;
 
 impl View<'_> {
@@ -32,36 +32,47 @@ impl View<'_> {
     ) -> Option<Draft> {
         assert_eq!(program.inputs, self.whole.inputs.len(), "the dataset's inputs");
         assert_eq!(program.outputs.len(), defined.len(), "a name for each output");
-        let mut draft = Draft { inputs: self.open_inputs().count(), ..Draft::default() };
-        let mut open = 0;
-        let mut arguments: Vec<Arg> = Vec::new();
-        for input in &self.inputs {
-            arguments.push(match input {
-                Input::Fixed(value) => draft.constant(*value as f32),
-                Input::Open(_) => {
-                    open += 1;
-                    Arg::Input(open - 1)
-                }
-            });
-        }
-        let values = draft.append(program, &arguments);
-        // An argument that stands for an output that the formula lacks.
+        let mut child = Draft { inputs: self.open_inputs().count(), ..Draft::default() };
+        let arguments = self.arguments(&mut child);
+        child.outputs = child.append(program, &arguments);
+        Some(self.outer(defined, wanted)?.append(&child))
+    }
+
+    /// The outputs that are wanted, over the open inputs and, as holes, the dataset's outputs that are defined.
+    fn outer(&self, defined: &[String], wanted: &[String]) -> Option<Outer> {
+        let open = self.open_inputs().count();
+        let mut form = Draft { inputs: open + defined.len(), ..Draft::default() };
+        let mut arguments = self.arguments(&mut form);
+        // An argument that stands for an output that is not defined.
         let lacking = Arg::Input(u16::MAX);
         for column in &self.whole.outputs {
-            let place = defined.iter().position(|name| *name == column.name);
-            arguments.push(place.map_or(lacking, |place| values[place]));
+            let hole = defined.iter().position(|name| *name == column.name);
+            arguments.push(hole.map_or(lacking, |hole| Arg::Input((open + hole) as u16)));
         }
         for (_, value) in &self.values {
-            arguments.push(draft.constant(*value as f32));
+            arguments.push(form.constant(*value as f32));
         }
         for name in wanted {
             let (_, expression) = self.outputs.iter().find(|(output, _)| output == name)?;
-            let value = draft.append(expression, &arguments);
-            draft.outputs.extend(value);
+            let value = form.append(expression, &arguments);
+            form.outputs.extend(value);
         }
-        let reads = draft.instrs.iter().flat_map(|instr| instr.args()).chain(&draft.outputs);
-        let complete = !reads.into_iter().any(|&arg| arg == lacking);
-        complete.then_some(draft)
+        let mut reads = form.instrs.iter().flat_map(|instr| instr.args()).chain(&form.outputs);
+        let complete = !reads.any(|&arg| arg == lacking);
+        complete
+            .then(|| Program::verify(form).ok())
+            .flatten()
+            .map(|form| Outer::new(form, defined.len()))
+    }
+
+    /// What the dataset's inputs are: open, or constants of a draft.
+    fn arguments(&self, draft: &mut Draft) -> Vec<Arg> {
+        let mut open = (0..).map(Arg::Input);
+        let argument = |input: &Input| match input {
+            Input::Fixed(value) => draft.constant(*value as f32),
+            Input::Open(_) => open.next().expect("as many as there are inputs"),
+        };
+        self.inputs.iter().map(argument).collect()
     }
 }
 

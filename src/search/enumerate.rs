@@ -13,7 +13,7 @@ use crate::archive::{Member, near_the_least};
 use crate::cost::CostScratch;
 use crate::deadline::Deadline;
 use crate::eval::Samples;
-use crate::fit::{Fitter, Measure, Rounds, Stop, minimax};
+use crate::fit::{Fitter, Measure, Rounds, Stop, minimax_free};
 use crate::program::{Arg, Constants, Draft, structural_hash};
 use crate::simplify::Simplifier;
 use rand::SeedableRng;
@@ -58,12 +58,13 @@ impl Search {
         let cost = cost.min(self.problem.goal.max_cost);
         let Some(structures) = structures(&self.problem, cost, most, deadline) else { return };
         let members = best_of(&structures, &self.problem, &self.race, deadline);
-        let drafts: Vec<Draft> = members.iter().map(|member| member.draft.clone()).collect();
+        let children: Vec<Draft> = members.iter().map(|member| member.draft.clone()).collect();
         for member in members {
-            self.state.archive.offer(member);
+            let draft = self.problem.formula(&member.draft).into_owned();
+            self.state.archive.offer(Member { draft, ..member });
         }
         let is_whole = !deadline.is_past();
-        self.settle_searched(&drafts, deadline);
+        self.settle_children(&children, deadline);
         self.state.enumeration =
             is_whole.then_some(Enumeration { cost, structures: structures.len() });
     }
@@ -74,7 +75,7 @@ impl Search {
     }
 }
 
-/// The structures that come near the least error at their cost, fitted on all samples.
+/// The structures that come near the least error at their cost, fitted on all samples. Drafts are children.
 fn best_of(
     structures: &[Draft],
     problem: &Problem,
@@ -94,13 +95,17 @@ fn best_of(
         if deadline.is_past() {
             return None;
         }
-        member.loss = fitter.fit(&mut member.draft, &problem.all, ON_ALL) * problem.scale();
-        if problem.goal.measure == Measure::Max {
-            let rounds = Rounds::TO_CONVERGENCE;
-            member.loss = minimax(fitter, &mut member.draft, &problem.all, rounds).powi(2);
-        }
-        member.loss = problem.archive_loss(&member.draft, member.loss, &mut fitter.evaluator);
-        Some(member).filter(|member| problem.accepts(&member.draft))
+        member.loss = problem.on_formula(&mut member.draft, |formula, own| {
+            let is_free = |i| i < own;
+            let mut loss =
+                fitter.fit_free(formula, &problem.all, ON_ALL, is_free) * problem.scale();
+            if problem.goal.measure == Measure::Max {
+                let rounds = Rounds::TO_CONVERGENCE;
+                loss = minimax_free(fitter, formula, &problem.all, rounds, is_free).powi(2);
+            }
+            problem.archive_loss(formula, loss, &mut fitter.evaluator)
+        });
+        Some(member).filter(|member| problem.accepts(&problem.formula(&member.draft)))
     };
     near.into_par_iter().map_init(new_fitter, finish).flatten().collect()
 }
@@ -122,7 +127,7 @@ fn structures(
     let mut known = HashSet::new();
     let mut all: Vec<Draft> = Vec::new();
     let mut children = most.saturating_mul(CHILDREN);
-    let mut latest = leaves(problem.all.inputs(), problem.all.outputs(), most)?;
+    let mut latest = leaves(problem.all.inputs(), problem.holes(), most)?;
     latest.retain(|draft| known.insert(hash(draft)));
     while !latest.is_empty() {
         let mut next = Vec::new();
@@ -192,7 +197,7 @@ fn grown(draft: &Draft, problem: &Problem, cost: f64) -> Vec<(u64, Draft)> {
         if reads_only_constants(&simple) {
             return;
         }
-        let affordable = problem.cost(&simple, &mut scratch) <= cost;
+        let affordable = problem.cost_of_child(&simple, &mut scratch) <= cost;
         let short = simple.instrs.len() <= problem.grammar.max_instructions;
         let hash = hash(&simple);
         if affordable && short && known.insert(hash) {
@@ -204,10 +209,10 @@ fn grown(draft: &Draft, problem: &Problem, cost: f64) -> Vec<(u64, Draft)> {
 
 /// A structure with the best constants of several starts, on the subset.
 fn fitted(fitter: &mut Fitter, draft: &Draft, problem: &Problem, race: &Samples) -> Option<Member> {
-    if !problem.admits(draft) {
+    if !problem.admits(&problem.formula(draft)) {
         return None;
     }
-    let cost = problem.cost(draft, &mut CostScratch::default());
+    let cost = problem.cost_of_child(draft, &mut CostScratch::default());
     let mut rng = ChaCha8Rng::seed_from_u64(hash(draft));
     let mut best: Option<Member> = None;
     for start in 0..STARTS {
@@ -215,7 +220,10 @@ fn fitted(fitter: &mut Fitter, draft: &Draft, problem: &Problem, race: &Samples)
         if start > 0 {
             draft.consts.iter_mut().for_each(|c| *c = random_constant(&mut rng));
         }
-        let loss = fitter.fit(&mut draft, race, ON_SUBSET) / race.total_weight();
+        let sum = problem.on_formula(&mut draft, |formula, own| {
+            fitter.fit_free(formula, race, ON_SUBSET, |i| i < own)
+        });
+        let loss = sum / race.total_weight();
         if loss.is_finite() && best.as_ref().is_none_or(|known| loss < known.loss) {
             best = Some(Member { cost, loss, draft });
         }

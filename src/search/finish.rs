@@ -116,12 +116,14 @@ fn archived(search: &Search) -> Vec<Draft> {
     if members.is_empty() {
         let problem = search.problem();
         let mut constant = Draft { inputs: problem.all.inputs(), ..Draft::default() };
-        for output in 0..problem.all.outputs() {
-            let value = constant.constant(0.5 + output as f32);
+        for hole in 0..problem.holes() {
+            let value = constant.constant(0.5 + hole as f32);
             constant.outputs.push(value);
         }
-        Fitter::default().fit(&mut constant, &problem.all, CONSTANT);
-        return vec![constant];
+        problem.on_formula(&mut constant, |formula, own| {
+            Fitter::default().fit_free(formula, &problem.all, CONSTANT, |i| i < own)
+        });
+        return vec![problem.formula(&constant).into_owned()];
     }
     let place = |member: &Member| (member.cost, member.loss);
     let order = by_value(&members.iter().map(place).collect::<Vec<_>>());
@@ -151,7 +153,7 @@ fn by_value(front: &[(f64, f64)]) -> Vec<usize> {
 /// What may be on the front for the maximum error, and whether the deadline left some out.
 fn contending(search: &Search, measure: Measure, work: &Work) -> (Vec<Draft>, bool) {
     let mut drafts = archived(search);
-    drafts.extend(search.contenders().into_iter().cloned());
+    drafts.extend(search.contenders());
     let problem = search.problem();
     let samples = problem.all_in(measure);
     // As long to look as to polish what is worth it.

@@ -1,8 +1,12 @@
 //! What is asked of formulas: which error is made small, what every formula must be, what it may cost.
 
-use super::{Requirement, Transform};
+use super::Requirement;
 use crate::fit::Measure;
+use crate::op::Op;
+use crate::program::{Arg, Draft, Outer, Program};
 use serde::{Deserialize, Serialize};
+use std::fmt;
+use std::str::FromStr;
 
 /// The most cycles that [`Goal::max_cost`] may be.
 pub const MOST_CYCLES: f64 = 1000.0;
@@ -15,7 +19,8 @@ pub struct Goal {
     pub measure: Measure,
     /// What every formula must be.
     pub requirements: Vec<Requirement>,
-    /// By output: the function of it that is searched for; where there are fewer, the output itself.
+    /// By output: the function of it that is searched for; where there are fewer, the output itself. A spelling of
+    /// [`Goal::outer`].
     pub transforms: Vec<Option<Transform>>,
     /// Cycles that a formula may cost at most.
     pub max_cost: f64,
@@ -33,7 +38,85 @@ impl Default for Goal {
     }
 }
 
+/// A function of an output that is searched for, where that is the simpler surface (Pesce & Iwanicki 2015, §4.3). The
+/// formula pays for the inverse around it, and its error is measured on the output all the same.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub enum Transform {
+    /// `1/y`, within a reciprocal.
+    Rcp,
+    /// `log2 y`, within `exp2`.
+    Log2,
+    /// `sqrt y`, within a square.
+    Sqrt,
+}
+
+const TRANSFORMS: [(Transform, &str); 3] =
+    [(Transform::Rcp, "rcp"), (Transform::Log2, "log2"), (Transform::Sqrt, "sqrt")];
+
+impl FromStr for Transform {
+    type Err = String;
+
+    fn from_str(text: &str) -> Result<Transform, String> {
+        let known = TRANSFORMS.iter().find(|(_, name)| *name == text);
+        let (transform, _) =
+            known.ok_or_else(|| format!("`{text}`: a transform is rcp, log2 or sqrt"))?;
+        Ok(*transform)
+    }
+}
+
+impl fmt::Display for Transform {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let (_, name) = TRANSFORMS.iter().find(|(known, _)| known == self).expect("all are listed");
+        f.write_str(name)
+    }
+}
+
+impl Transform {
+    fn apply(self, draft: &mut Draft, output: Arg) -> Arg {
+        match self {
+            Transform::Rcp => draft.push(Op::Rcp, &[output]),
+            Transform::Log2 => draft.push(Op::Log2, &[output]),
+            Transform::Sqrt => draft.push(Op::Sqrt, &[output]),
+        }
+    }
+
+    fn invert(self, draft: &mut Draft, hole: Arg) -> Arg {
+        match self {
+            Transform::Rcp => draft.push(Op::Rcp, &[hole]),
+            Transform::Log2 => draft.push(Op::Exp2, &[hole]),
+            Transform::Sqrt => draft.push(Op::Mul, &[hole, hole]),
+        }
+    }
+}
+
 impl Goal {
+    /// What formulas are searched for within: the inverses of the transforms; nothing where there are none.
+    pub(super) fn outer(&self, inputs: usize, outputs: usize) -> Option<Outer> {
+        self.around_outputs(inputs, outputs, Transform::invert)
+    }
+
+    /// What makes of outputs the values that are searched for.
+    pub(super) fn inner(&self, inputs: usize, outputs: usize) -> Option<Outer> {
+        self.around_outputs(inputs, outputs, Transform::apply)
+    }
+
+    fn around_outputs(
+        &self,
+        inputs: usize,
+        outputs: usize,
+        function: fn(Transform, &mut Draft, Arg) -> Arg,
+    ) -> Option<Outer> {
+        self.transforms.iter().flatten().next()?;
+        let mut draft = Draft { inputs: inputs + outputs, ..Draft::default() };
+        for output in 0..outputs {
+            let value = Arg::Input((inputs + output) as u16);
+            let transform = self.transforms.get(output).copied().flatten();
+            let value = transform.map_or(value, |one| function(one, &mut draft, value));
+            draft.outputs.push(value);
+        }
+        Some(Outer::new(Program::verify(draft).expect("a few instructions on inputs"), outputs))
+    }
+
     /// Whether this can be asked of formulas of so many inputs and outputs.
     ///
     /// # Errors

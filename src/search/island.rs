@@ -8,7 +8,7 @@ use crate::archive::{Archive, Member};
 use crate::cost::CostScratch;
 use crate::deadline::Deadline;
 use crate::eval::Samples;
-use crate::fit::{Fitter, Measure, Rounds, Stop, minimax};
+use crate::fit::{Fitter, Measure, Rounds, Stop, minimax_free};
 use crate::op::Op;
 use crate::program::{Constants, Draft, structural_hash};
 use crate::simplify::Simplifier;
@@ -168,9 +168,6 @@ impl Island {
         self.workshop.fitter.deadline = deadline.moment_alone();
         while under_way.considered < candidates && !deadline.is_past() {
             let made_by = self.conceive(&mut rng, problem, method.immigrants);
-            for (output, transform) in problem.transforms() {
-                transform.undo(&mut self.workshop.child, output);
-            }
             let Counts { fitted, admitted, .. } = self.counts;
             self.consider(problem);
             if self.counts.fitted > fitted {
@@ -215,8 +212,8 @@ impl Island {
                 variation.vary(rng, child, &donor.draft, &problem.grammar)
             }
             _ => {
-                let (inputs, outputs) = (problem.all.inputs(), problem.all.outputs());
-                random_draft(rng, inputs, outputs, &problem.grammar, child);
+                let (inputs, holes) = (problem.all.inputs(), problem.holes());
+                random_draft(rng, inputs, holes, &problem.grammar, child);
                 0
             }
         }
@@ -241,26 +238,27 @@ impl Island {
     fn newcomer(&mut self, problem: &Problem) -> Result<Individual, Fate> {
         let workshop = &mut self.workshop;
         let cost = workshop.prepare(problem, self.population.max_cost)?;
-        let hash = workshop.structure();
+        let hash = workshop.structure(problem);
         if !remember(&mut self.seen, hash) {
             return Err(Fate::Seen);
         }
-        if !problem.admits(&workshop.candidate) {
+        if !problem.admits(&problem.formula(&workshop.candidate)) {
             return Err(Fate::Inadmissible);
         }
         self.counts.fitted += 1;
         let admission = self.population.admission(&workshop.candidate, cost);
-        let loss = workshop.race(&self.race, admission, self.by_maximum)?;
-        if problem.holds(&workshop.candidate, &mut workshop.fitter.evaluator) {
+        let loss = workshop.race(problem, &self.race, admission, self.by_maximum)?;
+        let formula = problem.formula(&workshop.candidate);
+        if problem.holds(&formula, &mut workshop.fitter.evaluator) {
             return Ok(Individual { draft: workshop.candidate.clone(), cost, loss, hash });
         }
         self.clamped(problem).ok_or(Fate::Unfulfilled)
     }
 
-    /// Clamped outputs may be the cheapest way to what is required.
+    /// Clamped outputs may be the cheapest way to what is required; around an outer form no child clamps.
     fn clamped(&mut self, problem: &Problem) -> Option<Individual> {
         let Workshop { fitter, cost: scratch, candidate, .. } = &mut self.workshop;
-        *candidate = problem.clamped(candidate)?;
+        *candidate = problem.clamped(candidate).filter(|_| problem.outer.is_none())?;
         if !problem.admits(candidate) || candidate.instrs.len() > problem.grammar.max_instructions {
             return None;
         }
@@ -269,10 +267,10 @@ impl Island {
         let mut loss =
             fitter.fit(candidate, &self.race, MORE_STEPS) * (1.0 / self.race.total_weight());
         if loss < admission && self.by_maximum {
-            loss = levelled(fitter, candidate, &self.race, admission);
+            loss = levelled(fitter, candidate, usize::MAX, &self.race, admission);
         }
         let fulfils = loss < admission && problem.holds(candidate, &mut fitter.evaluator);
-        let hash = self.workshop.structure();
+        let hash = self.workshop.structure(problem);
         let draft = &self.workshop.candidate;
         fulfils.then(|| Individual { draft: draft.clone(), cost, loss, hash })
     }
@@ -283,21 +281,24 @@ impl Island {
         let Workshop { fitter, candidate, .. } = &mut self.workshop;
         let wanted = self.archive.best_loss(cost) * SUBSET_TOLERANCE;
         let by_maximum = problem.goal.measure == Measure::Max;
-        if by_maximum && !self.by_maximum {
-            loss = levelled(fitter, candidate, &self.race, wanted);
-        }
-        if loss >= wanted {
-            return;
-        }
-        self.counts.fitted_on_all += 1;
-        let mut loss = fitter.fit(candidate, &problem.all, ALL_SAMPLES) * problem.scale();
-        if by_maximum {
-            loss = levelled(fitter, candidate, &problem.all, wanted);
-        }
-        let loss = problem.archive_loss(candidate, loss, &mut fitter.evaluator);
-        if problem.holds(candidate, &mut fitter.evaluator) {
-            self.archive.offer(Member { cost, loss, draft: candidate.clone() });
-        }
+        problem.on_formula(candidate, |formula, own| {
+            if by_maximum && !self.by_maximum {
+                loss = levelled(fitter, formula, own, &self.race, wanted);
+            }
+            if loss >= wanted {
+                return;
+            }
+            self.counts.fitted_on_all += 1;
+            let sum = fitter.fit_free(formula, &problem.all, ALL_SAMPLES, |i| i < own);
+            let mut loss = sum * problem.scale();
+            if by_maximum {
+                loss = levelled(fitter, formula, own, &problem.all, wanted);
+            }
+            let loss = problem.archive_loss(formula, loss, &mut fitter.evaluator);
+            if problem.holds(formula, &mut fitter.evaluator) {
+                self.archive.offer(Member { cost, loss, draft: formula.clone() });
+            }
+        });
     }
 
     /// Takes in another island's best.
@@ -346,38 +347,54 @@ impl Workshop {
         if candidate.instrs.len() > problem.grammar.max_instructions || !constants_are_finite {
             return Err(Fate::TooLong);
         }
-        let cost = problem.cost(candidate, scratch);
+        let cost = problem.cost_of_child(candidate, scratch);
         if cost > max_cost { Err(Fate::TooDear) } else { Ok(cost) }
     }
 
-    fn structure(&mut self) -> u64 {
-        structural_hash(&self.candidate, Constants::Ignored, &mut self.hashes)
+    fn structure(&mut self, problem: &Problem) -> u64 {
+        let formula = problem.formula(&self.candidate);
+        structural_hash(&formula, Constants::Ignored, &mut self.hashes)
     }
 
     /// Fits the candidate on the subset, as long as it may come below what it must beat; its loss.
-    fn race(&mut self, subset: &Samples, admission: f64, by_maximum: bool) -> Result<f64, Fate> {
+    fn race(
+        &mut self,
+        problem: &Problem,
+        subset: &Samples,
+        admission: f64,
+        by_maximum: bool,
+    ) -> Result<f64, Fate> {
         let Workshop { fitter, candidate, .. } = self;
         let scale = 1.0 / subset.total_weight();
-        let first = fitter.fit(candidate, subset, FIRST_STEPS) * scale;
-        if !first.is_finite() {
-            return Err(Fate::NotFinite);
-        }
-        if first > admission * HOPELESS {
-            return Err(Fate::Hopeless);
-        }
-        let mut loss = fitter.go_on(candidate, subset, MORE_STEPS) * scale;
-        // The mean of the squares is a lower bound of the square of the maximum.
-        if loss < admission && by_maximum {
-            loss = levelled(fitter, candidate, subset, admission);
-        }
-        if loss < admission { Ok(loss) } else { Err(Fate::NoBetter) }
+        problem.on_formula(candidate, |formula, own| {
+            let first = fitter.fit_free(formula, subset, FIRST_STEPS, |i| i < own) * scale;
+            if !first.is_finite() {
+                return Err(Fate::NotFinite);
+            }
+            if first > admission * HOPELESS {
+                return Err(Fate::Hopeless);
+            }
+            let mut loss = fitter.go_on(formula, subset, MORE_STEPS) * scale;
+            // The mean of the squares is a lower bound of the square of the maximum.
+            if loss < admission && by_maximum {
+                loss = levelled(fitter, formula, own, subset, admission);
+            }
+            if loss < admission { Ok(loss) } else { Err(Fate::NoBetter) }
+        })
     }
 }
 
-/// The square of the maximum error, made small so long as it may come below what is wanted.
-fn levelled(fitter: &mut Fitter, draft: &mut Draft, samples: &Samples, wanted: f64) -> f64 {
+/// The square of the maximum error, made small by the first `own` constants so long as it may come below what is
+/// wanted.
+fn levelled(
+    fitter: &mut Fitter,
+    draft: &mut Draft,
+    own: usize,
+    samples: &Samples,
+    wanted: f64,
+) -> f64 {
     let rounds = Rounds { wanted: wanted.sqrt(), ..LEVELLING };
-    minimax(fitter, draft, samples, rounds).powi(2)
+    minimax_free(fitter, draft, samples, rounds, |i| i < own).powi(2)
 }
 
 /// Whether the grammar has each operation, negation apart, which is free.

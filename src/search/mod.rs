@@ -22,18 +22,16 @@ mod problem;
 mod require;
 mod rounding;
 mod scales;
-mod transform;
 mod vary;
 
 pub use enumerate::Enumeration;
 pub use finish::{Rehearsal, Work};
 pub use front::{Front, FrontMember, Published};
-pub use goal::{Goal, MOST_CYCLES};
+pub use goal::{Goal, MOST_CYCLES, Transform};
 pub(crate) use loaded::not_negative;
 pub use method::{MOST_ISLANDS, Method};
 pub use problem::{Problem, ProblemBuilder, SetupError, USUAL_GPU, USUAL_GRAMMAR};
 pub use require::Requirement;
-pub use transform::Transform;
 
 use crate::archive::Archive;
 use crate::deadline::Deadline;
@@ -256,7 +254,7 @@ impl Search {
 
     /// The islands' individuals of structures that the archive has left out, so far as they
     /// are not much worse than its own.
-    fn contenders(&self) -> Vec<&Draft> {
+    fn contenders(&self) -> Vec<Draft> {
         let archive = self.archive();
         let mut hashes = Vec::new();
         let mut structure = |draft| structural_hash(draft, Constants::Ignored, &mut hashes);
@@ -271,7 +269,7 @@ impl Search {
             };
             for one in island.population.individuals() {
                 if one.loss < share * archive.best_loss(one.cost) && known.insert(one.hash) {
-                    contenders.push(&one.draft);
+                    contenders.push(self.problem.formula(&one.draft).into_owned());
                 }
             }
         }
@@ -352,14 +350,14 @@ impl Search {
 
     /// [`Search::settle`] of the first drafts, as many as the deadline leaves time for.
     pub fn settle_until(&mut self, drafts: &[Draft], deadline: &Deadline) {
-        let drafts: Vec<Draft> =
-            drafts.iter().map(|draft| self.problem.over_searched(draft)).collect();
-        self.settle_searched(&drafts, deadline);
+        let children: Vec<Draft> =
+            drafts.iter().map(|draft| self.problem.searched_child(draft)).collect();
+        self.settle_children(&children, deadline);
     }
 
-    fn settle_searched(&mut self, drafts: &[Draft], deadline: &Deadline) {
+    fn settle_children(&mut self, children: &[Draft], deadline: &Deadline) {
         let (problem, islands) = (&*self.problem, self.state.islands.par_iter_mut());
-        islands.for_each(|island| island.settle_all(drafts, problem, deadline));
+        islands.for_each(|island| island.settle_all(children, problem, deadline));
         self.barrier(deadline);
     }
 }

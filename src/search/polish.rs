@@ -281,6 +281,22 @@ mod tests {
     use crate::program::{parse, print};
 
     #[test]
+    fn of_every_operation_of_pieces_it_is_known_where_it_passes_a_value_on() {
+        let boxes = [[1.0, 2.0, 3.0, 4.0], [3.0, 4.0, 1.0, 2.0], [0.2, 0.4, 0.6, 0.8]];
+        for &op in Op::ALL {
+            // Roundings to whole numbers, signs and angles act nearly everywhere; a step gives a number, and
+            // what a selection compares is no value that it passes on.
+            let always_acts =
+                matches!(op, Op::Floor | Op::Fract | Op::Sign | Op::Atan2 | Op::Step | Op::Select);
+            let passes = boxes.iter().any(|&[a, b, c, d]| {
+                let (first, second) = (enclose(a, b), enclose(c, d));
+                passes_through(op, [first, second, first, second]).is_some()
+            });
+            assert_eq!(passes, op.is_piecewise() && !always_acts, "{op}");
+        }
+    }
+
+    #[test]
     fn what_does_nothing_in_the_domain_is_left_out() {
         let names = Names::new(["x"], ["y"]);
         let inputs = [Column { name: "x".into(), unit: "1".into(), domain: [0.0, 1.0] }];

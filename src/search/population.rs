@@ -8,13 +8,13 @@ use rand_chacha::ChaCha8Rng;
 use serde::{Deserialize, Serialize};
 use std::ops::Range;
 
-/// A fitted draft, its loss on the racing subset.
+/// A fitted child, and the cost and loss, on the racing subset, of the formula that it becomes.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub(super) struct Individual {
     pub draft: Draft,
     pub cost: f64,
     pub loss: f64,
-    /// Structural, constants ignored.
+    /// Of the formula: structural, constants ignored.
     pub hash: u64,
 }
 

@@ -3,14 +3,13 @@
 use super::Goal;
 use super::require::Checks;
 use super::scales::Scales;
-use super::transform::Transform;
 use crate::cost::{CostScratch, Profile};
 use crate::dataset::{self, Dataset, Split, joint_unit, output_units};
 use crate::eval::{Evaluator, Samples, Tape};
 use crate::fit::Measure;
 use crate::grammar::{FileError, Grammar};
-use crate::program::{Draft, Program};
-use crate::simplify::Placement;
+use crate::program::{Draft, Outer, Program};
+use crate::simplify::{Placement, Simplifier};
 use std::borrow::Cow;
 use std::sync::Arc;
 
@@ -26,6 +25,8 @@ pub struct Problem {
     pub(super) profile: Arc<Profile>,
     pub(super) goal: Goal,
     pub(super) checks: Checks,
+    /// What formulas are searched for within.
+    pub(super) outer: Option<Outer>,
     pub(super) all: Samples,
     /// All samples without those that only hold formulas to an end; none where there are none.
     without_ends: Option<Samples>,
@@ -111,8 +112,8 @@ impl ProblemBuilder {
         let grammar = grammar.or_else(|name| Grammar::find(&name).map(Arc::new))?;
         let profile = profile.or_else(|name| Profile::find(&name).map(Arc::new))?;
         grammar.check()?;
-        let inputs = dataset.inputs.len();
-        goal.check(inputs, dataset.outputs.len()).map_err(SetupError::Goal)?;
+        let (inputs, outputs) = (dataset.inputs.len(), dataset.outputs.len());
+        goal.check(inputs, outputs).map_err(SetupError::Goal)?;
         if goal.measure == Measure::Weighted && dataset.search.weights.is_empty() {
             return Err(SetupError::Goal(
                 "`measure` is weighted, but the data has no weights".into(),
@@ -132,6 +133,7 @@ impl ProblemBuilder {
         Ok(Problem {
             constant_loss: constant_loss(&plain, goal.measure),
             without_ends: (all.rows() > plain.rows()).then_some(plain),
+            outer: goal.outer(inputs, outputs),
             unit: if goal.measure == Measure::Relative { 1.0 } else { joint_unit(&units) },
             dataset,
             searched,
@@ -229,15 +231,42 @@ impl Problem {
         }
     }
 
-    /// The outputs that are searched for through a function of them.
-    pub(super) fn transforms(&self) -> impl Iterator<Item = (usize, Transform)> + '_ {
-        let each = self.goal.transforms.iter().enumerate();
-        each.filter_map(|(output, transform)| Some((output, (*transform)?)))
+    /// How many outputs a child has, which is what varies.
+    pub(super) fn holes(&self) -> usize {
+        self.outer.as_ref().map_or(self.all.outputs(), Outer::holes)
+    }
+
+    /// The draft that a child becomes within the outer form.
+    pub(super) fn formula<'d>(&self, child: &'d Draft) -> Cow<'d, Draft> {
+        self.outer.as_ref().map_or(Cow::Borrowed(child), |outer| Cow::Owned(outer.append(child)))
+    }
+
+    /// Works on the draft that a child becomes, and takes what has become of the child's constants, which are so
+    /// many of the first; the others are the outer form's, and stay.
+    pub(super) fn on_formula<R>(
+        &self,
+        child: &mut Draft,
+        work: impl FnOnce(&mut Draft, usize) -> R,
+    ) -> R {
+        let own = child.consts.len();
+        let Some(outer) = &self.outer else { return work(child, own) };
+        let mut formula = outer.append(child);
+        let result = work(&mut formula, own);
+        child.consts.copy_from_slice(&formula.consts[..own]);
+        result
     }
 
     /// Cycles and penalties of the formula that a draft of the search becomes.
     pub(super) fn cost(&self, draft: &Draft, scratch: &mut CostScratch) -> f64 {
         self.natural_and_cost(draft, scratch).1
+    }
+
+    /// Cycles and penalties of the formula that a child becomes.
+    pub(super) fn cost_of_child(&self, child: &Draft, scratch: &mut CostScratch) -> f64 {
+        let Some(outer) = &self.outer else { return self.cost(child, scratch) };
+        let mut formula = Draft::default();
+        Simplifier::default().simplify(&outer.append(child), &mut formula);
+        self.cost(&formula, scratch)
     }
 
     /// A draft of the search as one over the dataset's columns.
@@ -269,6 +298,15 @@ impl Problem {
     /// A draft over the dataset's columns as one of the search.
     pub(super) fn over_searched(&self, draft: &Draft) -> Draft {
         self.scales.as_ref().map_or_else(|| draft.clone(), |scales| scales.searched(draft))
+    }
+
+    /// A draft over the dataset's columns as a child, which is what varies.
+    pub(super) fn searched_child(&self, draft: &Draft) -> Draft {
+        let searched = self.over_searched(draft);
+        match self.goal.inner(searched.inputs, searched.outputs.len()) {
+            Some(inner) => inner.append(&searched),
+            None => searched,
+        }
     }
 
     /// What turns a sum of squares over all samples and outputs into a mean.
@@ -325,4 +363,27 @@ fn edge_rows(split: &Split, inputs: usize) -> Vec<u32> {
         cells.any(|(x, (low, high))| x == *low || x == *high)
     };
     (0..split.rows() as u32).filter(at_an_end).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::dataset::axis;
+    use crate::fit::{Fitter, Stop};
+    use crate::program::{Names, parse};
+
+    #[test]
+    fn constants_of_the_outer_form_stay() {
+        let data = Dataset::sampled([axis("x", 0.0..=1.0)], ["y"], |[x]| [0.5 * (3.0 * x) + 0.25]);
+        let mut problem = Problem::of(data.unwrap()).build().unwrap();
+        let form = parse("y = 0.5*hole + 0.25", &Names::new(["x", "hole"], ["y"])).unwrap();
+        problem.outer = Some(Outer::new(form, 1));
+        let mut child = parse("hole = 1*x", &Names::new(["x"], ["hole"])).unwrap().into_draft();
+        let loss = problem.on_formula(&mut child, |formula, own| {
+            let stop = Stop { max_steps: 20, min_gain: 0.0 };
+            Fitter::default().fit_free(formula, &problem.all, stop, |i| i < own)
+        });
+        assert!(loss < 1e-10 && (child.consts[0] - 3.0).abs() < 1e-5, "{child:?}");
+        assert_eq!(problem.formula(&child).consts[1..], [0.5, 0.25]);
+    }
 }

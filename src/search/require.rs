@@ -405,9 +405,7 @@ fn both_splits(dataset: &Dataset) -> Split {
 impl Problem {
     /// Whether a formula is built as required, and as the grammar allows.
     pub(super) fn admits(&self, draft: &Draft) -> bool {
-        self.checks.admits(draft)
-            && self.grammar.allows_nesting(draft)
-            && self.transforms().all(|(output, transform)| transform.is_undone(draft, output))
+        self.checks.admits(draft) && self.grammar.allows_nesting(draft)
     }
 
     /// Whether a draft of the search has values as required, as far as samples show it.
@@ -431,15 +429,8 @@ impl Problem {
     pub(super) fn shows(&self, program: &Program) -> bool {
         self.checks.admits(program)
             && self.grammar.allows_nesting(program)
-            && self.ends_are_kept(program)
             && self.checks.hold(program, &mut Evaluator::default())
             && self.checks.stand(program, &self.dataset)
-    }
-
-    /// Whether transformed outputs still end in the inverse; where columns are scaled, a factor may follow it.
-    fn ends_are_kept(&self, program: &Draft) -> bool {
-        self.scales.is_some()
-            || self.transforms().all(|(o, transform)| transform.is_undone(program, o))
     }
 
     /// What is asked of each formula that is shown.

@@ -47,6 +47,7 @@ impl Simplifier {
         match (op, inner.op()) {
             (Op::Exp2, Op::Log2) | (Op::Log2, Op::Exp2) => Some(y),
             (Op::Exp, Op::Log) | (Op::Log, Op::Exp) => Some(y),
+            (Op::Sin, Op::Asin) | (Op::Cos, Op::Acos) | (Op::Tan, Op::Atan) => Some(y),
             (Op::Rcp, Op::Exp2 | Op::Exp) => self.inverse_power(x),
             (Op::Rcp, Op::Rcp) => Some(y),
             (Op::Rcp, Op::Sqrt) | (Op::Sqrt, Op::Rcp) if self.is_read_once(x) => {

@@ -1,7 +1,7 @@
 //! Which operation loses the digits.
 
 use crate::eval::{Arithmetic, Double};
-use crate::op::{MAX_ARITY, Op};
+use crate::op::{Family, MAX_ARITY, Op};
 use crate::program::{Arg, Draft, Program};
 use serde::Serialize;
 
@@ -105,7 +105,7 @@ impl Trace<'_> {
             *to = self.exact(arg);
         }
         let condition = condition(instr.op(), arguments, exact);
-        let sums = matches!(instr.op(), Op::Add | Op::Sub | Op::Mad | Op::Lerp | Op::Fract);
+        let sums = is_a_sum(instr.op());
         let cause = match () {
             () if found.is_nan() || exact.is_nan() => Cause::Undefined,
             () if found.is_infinite() && exact.is_infinite() => Cause::Undefined,
@@ -139,4 +139,13 @@ fn condition(op: Op, arguments: [f64; MAX_ARITY], result: f64) -> f64 {
         worst = worst.max(if change.is_nan() { 0.0 } else { change });
     }
     worst
+}
+
+/// Whether terms may cancel in it.
+fn is_a_sum(op: Op) -> bool {
+    match op.family() {
+        Family::Arithmetic => !matches!(op, Op::Neg | Op::Mul),
+        Family::Choice => op == Op::Fract,
+        Family::Quotient | Family::Root | Family::Exponential | Family::Trigonometric => false,
+    }
 }

@@ -2,16 +2,25 @@
 
 use super::Names;
 use crate::op::Op;
+use crate::program::spelling::{
+    Spelling, Written, atom, filled, move_signs, negated_product, negation, power, product, sum,
+};
 use crate::program::{Arg, Program, use_counts};
 
-/// How tightly a piece of text binds.
-#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
-enum Binding {
-    Sum,
-    Product,
-    Negation,
-    Power,
-    Atom,
+const PARENTHESES: [&str; 2] = ["(", ")"];
+const SIGNS: [&str; 2] = [" + ", " - "];
+
+/// The operators; what is none is written as a function.
+fn spelling(op: Op) -> Option<Spelling> {
+    Some(match op {
+        Op::Add => sum("{a+} + {b*}"),
+        Op::Sub => sum("{a+} - {b*}"),
+        Op::Mul => product("{a*}*{b-}"),
+        Op::Div => product("{a*}/{b-}"),
+        Op::Neg => negation("-{a^}"),
+        Op::Select => atom("select({a} < {b}, {c}, {d})"),
+        _ => return None,
+    })
 }
 
 /// The formula of a program's effective code: a statement for each shared result and each
@@ -84,36 +93,11 @@ pub fn shortest(value: f64) -> String {
     if scientific.len() + 2 < plain.len() { scientific } else { plain }
 }
 
-/// How a reader of a value writes it.
-#[derive(Clone)]
-struct Text {
-    text: String,
-    binding: Binding,
-    /// The negated value, where that takes a sign away.
-    negated: Option<(String, Binding)>,
-}
-
-impl Text {
-    fn plain(text: String, binding: Binding) -> Text {
-        Text { text, binding, negated: None }
-    }
-
-    fn turned(&self) -> Option<Text> {
-        let (text, binding) = self.negated.clone()?;
-        Some(Text::plain(text, binding))
-    }
-
-    /// In parentheses unless it binds at least as tightly as `least`.
-    fn operand(&self, least: Binding) -> String {
-        if self.binding >= least { self.text.clone() } else { format!("({})", self.text) }
-    }
-}
-
 struct Printer<'a> {
     program: &'a Program,
     names: &'a Names,
     /// For each instruction, how a reader of its result writes it.
-    texts: Vec<Text>,
+    texts: Vec<Written>,
     statements: Vec<String>,
     temporaries: usize,
 }
@@ -121,7 +105,7 @@ struct Printer<'a> {
 impl Printer<'_> {
     fn instruction(&mut self, i: usize, count: u32) {
         if count == 0 {
-            self.texts.push(Text::plain(String::new(), Binding::Atom));
+            self.texts.push(Written::name(String::new()));
             return;
         }
         let text = self.expression(i);
@@ -135,7 +119,7 @@ impl Printer<'_> {
         match name {
             Some(name) => {
                 self.statements.push(format!("{name} = {}", text.text));
-                self.texts.push(Text::plain(name, Binding::Atom));
+                self.texts.push(Written::name(name));
             }
             None => self.texts.push(text),
         }
@@ -163,91 +147,50 @@ impl Printer<'_> {
         }
     }
 
-    fn argument(&self, arg: Arg) -> Text {
+    fn argument(&self, arg: Arg) -> Written {
         match arg {
-            Arg::Input(i) => Text::plain(self.names.inputs[usize::from(i)].clone(), Binding::Atom),
-            Arg::Const(i) => {
-                let value = self.program.consts[usize::from(i)];
-                let text = Text::plain(format_constant(value), Binding::Atom);
-                if !value.is_sign_negative() {
-                    return text;
-                }
-                let negated = Some((format_constant(-value), Binding::Atom));
-                Text { binding: Binding::Negation, negated, ..text }
-            }
+            Arg::Input(i) => Written::name(self.names.inputs[usize::from(i)].clone()),
+            Arg::Const(i) => Written::number(self.program.consts[usize::from(i)], format_constant),
             Arg::Result(i) => self.texts[usize::from(i)].clone(),
         }
     }
 
-    /// Signs stand where there are fewest of them. That is exact: a rounded result is that of the
-    /// negated arguments, negated, and a sum is the difference from the negated term.
-    fn expression(&self, i: usize) -> Text {
+    fn expression(&self, i: usize) -> Written {
         let instr = &self.program.instrs[i];
-        let mut args: Vec<Text> = instr.args().iter().map(|&arg| self.argument(arg)).collect();
-        let turned: Vec<Option<Text>> = args.iter().map(Text::turned).collect();
-        match (instr.op(), instr.args(), turned.as_slice()) {
-            (Op::Add | Op::Sub, _, [_, _]) => sum(instr.op(), args),
-            (Op::Mul, &[a, b], _) if a == b => {
-                Text::plain(format!("{}^2", args[0].operand(Binding::Atom)), Binding::Power)
+        let (op, is_constant) = (instr.op(), |arg: Arg| matches!(arg, Arg::Const(_)));
+        let mut args: Vec<Written> = instr.args().iter().map(|&arg| self.argument(arg)).collect();
+        match (op, instr.args()) {
+            (Op::Mul, [a, b]) if a == b => return written(&power("{a!}^2"), &args),
+            // `2*x` reads better than `x*2`, and means the same bits.
+            (Op::Mul, &[_, b]) if is_constant(b) => args.swap(0, 1),
+            // A bare number after the sign would read as a negative constant.
+            (Op::Neg, &[a]) if is_constant(a) && args[0].negated.is_none() => {
+                let negated = Some((args[0].text.clone(), args[0].binding));
+                return Written { negated, ..written(&negation("-({a})"), &args) };
             }
-            (Op::Mul | Op::Div, &[_, b], _) => {
-                // `2*x` reads better than `x*2`, and means the same bits.
-                if instr.op() == Op::Mul && matches!(b, Arg::Const(_)) {
-                    args.swap(0, 1);
+            (Op::Neg, _) => {
+                if let Some(value) = args[0].turned() {
+                    return value;
                 }
-                quotient_or_product(instr.op(), args)
             }
-            (Op::Neg, _, [Some(value)]) => value.clone(),
-            (Op::Neg, &[arg], _) => {
-                // A bare number after the sign would read as a negative constant.
-                let value = &args[0];
-                let text = match arg {
-                    Arg::Const(_) => format!("({})", value.text),
-                    _ => value.operand(Binding::Power),
-                };
-                let negated = Some((value.text.clone(), value.binding));
-                Text { text: format!("-{text}"), binding: Binding::Negation, negated }
-            }
-            (Op::Select, ..) => {
-                let [a, b, x, y] = [0, 1, 2, 3].map(|k| &args[k].text);
-                Text::plain(format!("select({a} < {b}, {x}, {y})"), Binding::Atom)
-            }
-            (op, ..) => {
-                let args: Vec<String> = args.into_iter().map(|arg| arg.text).collect();
-                Text::plain(format!("{op}({})", args.join(", ")), Binding::Atom)
-            }
+            _ => {}
         }
+        let Some(spelling) = spelling(op) else {
+            let args: Vec<String> = args.into_iter().map(|arg| arg.text).collect();
+            return Written::name(format!("{op}({})", args.join(", ")));
+        };
+        move_signs(op, &mut args, Written::turned);
+        let references: Vec<&Written> = args.iter().collect();
+        let negated = match op {
+            Op::Neg => Some((args[0].text.clone(), args[0].binding)),
+            Op::Mul | Op::Div => negated_product(&spelling, &references, PARENTHESES, SIGNS),
+            _ => None,
+        };
+        Written { negated, ..written(&spelling, &args) }
     }
 }
 
-fn sum(op: Op, mut args: Vec<Text>) -> Text {
-    match (op, args[0].turned(), args[1].turned()) {
-        (Op::Add, Some(_), None) => args.swap(0, 1),
-        (Op::Sub, Some(a), Some(b)) => args = vec![b, a],
-        _ => {}
-    }
-    let turned = args[1].turned();
-    let plus = (op == Op::Add) ^ turned.is_some();
-    let left = args[0].operand(Binding::Sum);
-    let right = turned.as_ref().unwrap_or(&args[1]).operand(Binding::Product);
-    let sign = if plus { "+" } else { "-" };
-    Text::plain(format!("{left} {sign} {right}"), Binding::Sum)
-}
-
-fn quotient_or_product(op: Op, mut args: Vec<Text>) -> Text {
-    let symbol = if op == Op::Mul { "*" } else { "/" };
-    let written = |args: &[Text]| {
-        let left = args[0].operand(Binding::Product);
-        format!("{left}{symbol}{}", args[1].operand(Binding::Negation))
-    };
-    if let [Some(a), Some(b)] = [args[0].turned(), args[1].turned()] {
-        return Text::plain(written(&[a, b]), Binding::Product);
-    }
-    let text = written(&args);
-    let first = args.iter().position(|arg| arg.negated.is_some());
-    let negated = first.and_then(|i| {
-        args[i] = args[i].turned()?;
-        Some((written(&args), Binding::Product))
-    });
-    Text { text, binding: Binding::Product, negated }
+fn written(spelling: &Spelling, args: &[Written]) -> Written {
+    let args: Vec<&Written> = args.iter().collect();
+    Written::new(filled(spelling, &args, PARENTHESES, SIGNS), spelling.binding)
 }
