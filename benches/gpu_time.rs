@@ -51,7 +51,7 @@ fn main() -> Outcome<()> {
         false => Load { groups: 2048, many: 4096 },
     };
 
-    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("results/dfg");
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/fixtures/dfg");
     let run = Run::load(&folder)?;
     let names = run.names();
     let unit = parse("scale = mad(n_dot_v, .7, .1); bias = mad(roughness, .6, .2)", &names)?;

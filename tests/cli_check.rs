@@ -60,13 +60,13 @@ fn json_has_everything() {
 
 #[test]
 fn a_front_is_checked_member_by_member() {
-    let (code, shown, errors) = check(&["results/dfg"]);
+    let (code, shown, errors) = check(&["tests/fixtures/dfg"]);
     assert_eq!(code, 0, "{errors}");
     let line = shown.lines().find(|line| line.starts_with("finite  f32")).unwrap();
     let numbers: Vec<&str> = line.split_whitespace().skip(2).collect();
     assert_eq!(numbers[1..], ["0", "0"], "{line}");
-    assert_eq!(check(&["results/dfg", "--range", "0..1"]).0, 4);
-    assert!(check(&["results/dfg", "--pick", "1"]).1.contains("scale finite"));
+    assert_eq!(check(&["tests/fixtures/dfg", "--range", "0..1"]).0, 4);
+    assert!(check(&["tests/fixtures/dfg", "--pick", "1"]).1.contains("scale finite"));
 }
 
 #[test]
@@ -74,14 +74,14 @@ fn what_cannot_be_understood_is_refused_with_advice() {
     for (args, code, expected) in [
         (&["y = 1/(x - $a)", "--domain", "x=2..3"][..], 3, "free constant"),
         (&["y = 1/x", "--domain", "x=1..1e39"], 2, "finite f32s"),
-        (&["results/dfg", "--domain", "roughness=0.3..0.9"], 2, "the domain of its run"),
+        (&["tests/fixtures/dfg", "--domain", "roughness=0.3..0.9"], 2, "the domain of its run"),
         (&["y = x*z", "--domain", "x=0..1"][..], 2, "--domain z=0..1"),
         (&["y = x", "--domain", "x=1..0"], 2, "LOW..HIGH"),
         (&["y = x", "--domain", "x=0..1,w=0..1"], 2, "no input `w`"),
         (&["y = x", "--domain", "x=0..1", "--range", "z=0..1"], 2, "no output `z`"),
         (&["y = x", "--domain", "x=0..1", "--energy"], 2, "scale"),
         (&["nowhere"], 3, "no such folder"),
-        (&["results/dfg", "--pick", "999"], 2, "--pick 999"),
+        (&["tests/fixtures/dfg", "--pick", "999"], 2, "--pick 999"),
         (&["bias = $a*n_dot_v", "datasets/dfg.bin"], 3, "$a"),
     ] {
         let (found, shown, errors) = check(args);

@@ -25,19 +25,18 @@ fn text(bytes: &[u8]) -> String {
     String::from_utf8_lossy(bytes).into_owned()
 }
 
-/// The committed snippets of the DFG front that can be read back, by name.
-fn snippets() -> Vec<(PathBuf, String)> {
-    let folder = std::fs::read_dir(repository().join("results/dfg/snippets")).unwrap();
-    let mut found: Vec<_> = folder
-        .map(|entry| {
-            let path = entry.unwrap().path();
-            let text = std::fs::read_to_string(&path).unwrap();
-            (path, text)
-        })
-        .collect();
-    let readable = Language::SHADING.iter().map(|language| language.extension());
-    found.retain(|(path, _)| readable.clone().any(|name| path.extension().unwrap() == name));
-    found.sort();
+/// Some members of a front in each language that can be read back, each in a file of the folder.
+fn snippets(folder: &Path) -> Vec<(PathBuf, String)> {
+    let mut found = Vec::new();
+    for (i, language) in Language::SHADING.iter().enumerate() {
+        for pick in (2 + i..=30).step_by(3) {
+            let picked = ["--pick", &pick.to_string()];
+            let code = emitted("tests/fixtures/dfg", language.name(), &picked);
+            let path = folder.join(format!("{pick}.{}", language.extension()));
+            std::fs::write(&path, &code).unwrap();
+            found.push((path, code));
+        }
+    }
     found
 }
 
@@ -48,8 +47,9 @@ fn stated_rmse(snippet: &str) -> f64 {
 }
 
 #[test]
-fn committed_snippets_keep_their_word() {
-    for (path, snippet) in snippets().iter().step_by(11) {
+fn snippets_keep_their_word() {
+    let folder = tempfile::tempdir().unwrap();
+    for (path, snippet) in &snippets(folder.path()) {
         let stated = stated_rmse(snippet);
         let output = verify(path, &(stated + 6e-6).to_string(), &["--json"]);
         assert_eq!(output.status.code(), Some(0), "{path:?}: {}", text(&output.stderr));
@@ -130,7 +130,8 @@ fn a_constant_changed_in_its_third_digit_is_caught() {
     let folder = tempfile::tempdir().unwrap();
     let (mut tried, mut on_the_command_line) = (0, 0);
     let dataset = Dataset::load(&data()).unwrap();
-    for (path, snippet) in snippets() {
+    let folder = tempfile::tempdir().unwrap();
+    for (path, snippet) in snippets(folder.path()) {
         let language = Language::from_name(path.extension().unwrap().to_str().unwrap()).unwrap();
         let original = read_back(language, &snippet).unwrap();
         let body = snippet.find("{\n").unwrap();
@@ -200,7 +201,7 @@ fn every_precision_is_verified() {
     for (language, extension) in LANGUAGES {
         for more in [&["--half"][..], &["--half-error", "0.004"], &[]] {
             let file = folder.path().join(format!("a.{extension}"));
-            let code = emitted("results/dfg", language, &[&["--pick", "9"], more].concat());
+            let code = emitted("tests/fixtures/dfg", language, &[&["--pick", "9"], more].concat());
             assert!(code.contains("// formula: "), "{code}");
             std::fs::write(&file, &code).unwrap();
             let output = verify(&file, "0.1", &["--json"]);
@@ -241,7 +242,7 @@ fn numbers_of_halves_caught(language: &str, code: &str) -> usize {
 /// No change of the line with the formula makes it a line like any other.
 #[test]
 fn a_formula_in_a_comment_is_never_passed_over() {
-    let code = emitted("results/dfg", "hlsl", &["--pick", "9"]);
+    let code = emitted("tests/fixtures/dfg", "hlsl", &["--pick", "9"]);
     let read = |code: &str| read_back(Language::Hlsl, code).unwrap();
     let outputs = read(&code).names.outputs;
     let start = code.find("formula:").unwrap();

@@ -15,7 +15,7 @@
         code: document.getElementById("code").textContent, copied, maps: ink(),
       };
     };
-    for (const [member, language] of [[3, "hlsl"], [20, "wgsl"], [20, "python"], [39, "glsl"], [39, "latex"], [0, "rust"]]) {
+    for (const [member, language] of [[3, "hlsl"], [20, "wgsl"], [20, "python"], [29, "glsl"], [29, "latex"], [0, "rust"]]) {
       click(document.querySelector(`circle[data-member="${member}"]`));
       click(document.querySelector(`button[data-language="${language}"]`));
       seen.members.push({ member, language, ...(await look()) });

@@ -89,7 +89,7 @@ impl Case {
 /// Every member of the committed front, on both splits of its dataset.
 pub fn front() -> Vec<Case> {
     let root = Path::new(env!("CARGO_MANIFEST_DIR"));
-    let folder = root.join("results/dfg");
+    let folder = root.join("tests/fixtures/dfg");
     let run = Run::load(&folder).unwrap();
     let data = Dataset::load(&root.join("datasets/dfg.bin")).unwrap();
     let both = |column: usize| {

@@ -15,7 +15,7 @@ fn of_the_committed_front_all_but_little_is_decided() {
     let dataset = Dataset::load(Path::new("datasets/dfg.bin")).unwrap();
     let questions = Questions::of(&dataset.inputs, &dataset.outputs);
     assert_eq!(questions.ranges, [[0.0, 1.0]; 2]);
-    let text = std::fs::read_to_string("results/dfg/front.json").unwrap();
+    let text = std::fs::read_to_string("tests/fixtures/dfg/front.json").unwrap();
     let members: serde_json::Value = serde_json::from_str(&text).unwrap();
     let members = members.as_array().unwrap();
     let mut open = 0;
