@@ -1,0 +1,98 @@
+"""Writes the tables of results/README.md and results/scenes/README.md, between their marks, by what `lgp` says of the
+committed runs."""
+
+import json
+import re
+import subprocess
+import sys
+from pathlib import Path
+
+RESULTS = Path(__file__).parent
+RUNS = ["dfg", "dfg_paper", "fresnel", "beckmann_g1", "smith_g2", "area_norm", "disney_zh0", "hammon_single", "hammon_multi"]
+SCENES = [("materialx_rational", "materialx"), ("ue5_ggx_energy", "ue5")]
+
+
+def lgp(*arguments):
+    done = subprocess.run(["lgp", *arguments], cwd=RESULTS.parent, capture_output=True, text=True, check=True)
+    return done.stdout
+
+
+def short(error):
+    return f"{error:.5f}".lstrip("0") if error >= 1e-4 else f"{error:.1e}"
+
+
+def replace(page, mark, lines):
+    path = RESULTS / page
+    begin, end = f"<!-- {mark} -->\n", f"<!-- end of {mark} -->"
+    before, rest = path.read_text().split(begin)
+    path.write_text(before + begin + "\n".join(lines) + "\n" + rest[rest.index(end):])
+
+
+def front(folder):
+    return json.loads(lgp("front", folder, "--json"))
+
+
+def at(members, cost):
+    return min(m["rmse"] for m in members if m["cost"] <= cost + 1e-9)
+
+
+def matching(members, error):
+    return next((m["cost"] for m in members if m["rmse"] <= error), None)
+
+
+def published(run):
+    """Name, cycles and RMSE of each published formula that `lgp front` lists."""
+    lines = lgp("front", f"results/{run}").splitlines()
+    for row, below in zip(lines, lines[1:]):
+        if row.split()[:1] == ["*"]:
+            yield below.split(":")[0].strip(), float(row.split()[1]), float(row.split()[2])
+
+
+def gallery():
+    lines = ["| run | published | its cycles | its RMSE | the front's RMSE there | cycles that match it |", "|---|---|---|---|---|---|"]
+    for run in RUNS:
+        members = front(f"results/{run}")
+        for name, cost, error in sorted(published(run), key=lambda known: known[1:]):
+            matched = matching(members, error)
+            matched = "none" if matched is None else f"{matched:g}"
+            lines.append(f"| [`{run}`]({run}/front.txt) | `{name}` | {cost:g} | {short(error)} | {short(at(members, cost))} | {matched} |")
+    replace("README.md", "published", lines)
+
+
+def scenes():
+    whole, satin = front("results/dfg"), front("results/scenes/satin")
+    lines = ["| formula for the whole domain | its error | the scene's front | there | the scene's front |", "|---|---|---|---|---|"]
+    for cost in (16, 19, 22):
+        member = max((m for m in whole if m["cost"] <= cost), key=lambda m: m["cost"])
+        there = json.loads(lgp("eval", member["formula"], "datasets/dfg.bin", "--scene", "satin", "--json"))["rmse"]
+        cells = []
+        for error in (member["rmse"], there):
+            matched = matching(satin, error)
+            cells += [short(error), "none" if matched is None else f"{matched:g} cycles, {matched / member['cost']:.0%}"]
+        lines.append(f"| {member['cost']:g} cycles of [`results/dfg`](../dfg/front.txt) | " + " | ".join(cells) + " |")
+    replace("scenes/README.md", "satin", lines)
+    cut()
+
+
+def cut():
+    lines = ["| formula | scene | as given | constants fitted | as good as given | twice its error | half its cycles | steps |", "|---|---|---|---|---|---|---|---|"]
+    incumbents = (RESULTS.parent / "datasets/incumbents/dfg.ron").read_text()
+    for name, label in SCENES:
+        formula = re.search(rf'name: "{name}".*?formula: "(.*?)"', incumbents, re.S)[1].replace("\\\n", "").replace("\\", "")
+        for scene in ("satin", "dielectric"):
+            steps = lgp("specialize", formula, "datasets/dfg.bin", "--scene", scene)
+            (RESULTS / f"scenes/{label}_{scene}.txt").write_text(steps)
+            rows = [line.split(None, 5) for line in steps.splitlines()[1:] if line.split()[:1] and line.split()[0].isdigit()]
+            rows = [(float(row[0]), float(row[2]), row[5]) for row in rows]
+            cost, error, _ = rows[0]
+            fitted = next(row[1] for row in rows if "fitted" in row[2])
+            cheapest = lambda most: min((row for row in rows if row[1] <= most), key=lambda row: (row[0], row[1]))
+            best = min((row for row in rows if row[0] <= cost / 2), key=lambda row: row[1])
+            cell = lambda row: f"{row[0]:g} ({short(row[1])})"
+            lines.append(
+                f"| `{name}` | `{scene}` | {cost:g} ({short(error)}) | {short(fitted)} | {cell(cheapest(error))} | "
+                f"{cell(cheapest(2 * error))} | {cell(best)} | [{label}_{scene}.txt]({label}_{scene}.txt) |")
+    replace("scenes/README.md", "cut", lines)
+
+
+{"gallery": gallery, "scenes": scenes}[sys.argv[1]]()
