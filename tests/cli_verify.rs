@@ -127,7 +127,6 @@ fn digits_are_counted_from_the_first_that_is_not_zero() {
 /// be told from the original. In the library, since there are thousands.
 #[test]
 fn a_constant_changed_in_its_third_digit_is_caught() {
-    let folder = tempfile::tempdir().unwrap();
     let (mut tried, mut on_the_command_line) = (0, 0);
     let dataset = Dataset::load(&data()).unwrap();
     let folder = tempfile::tempdir().unwrap();

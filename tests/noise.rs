@@ -41,7 +41,7 @@ fn front(data: &Dataset, guesses: &[&str], generations: u64, measure: Measure) -
     let problem = Problem::of(data.clone()).goal(goal).build().unwrap();
     let mut search = Search::new(problem, method).unwrap();
     let draft = |text: &&str| parse(text, &data.names()).unwrap().into_draft();
-    search.settle(&guesses.iter().map(draft).collect::<Vec<_>>());
+    search.inject(&guesses.iter().map(draft).collect::<Vec<_>>());
     (0..generations).for_each(|_| search.advance());
     Front::of(&search)
 }

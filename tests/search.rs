@@ -153,7 +153,7 @@ fn the_front_for_the_maximum_error_heeds_no_weights() {
             (Goal { max_cost: 1.0, measure, ..Goal::default() }, Method::default());
         let problem = Problem::of(data.clone()).goal(goal).build().unwrap();
         let mut search = Search::new(problem, method).unwrap();
-        search.settle(&[line]);
+        search.inject(&[line]);
         Front::in_measure(&search, Measure::Max).members[0].search_error().max
     };
     let unweighted = minimax(&data);
@@ -171,7 +171,7 @@ fn roots_are_guarded_where_that_is_free() {
     let (goal, method) = (Goal { max_cost: 8.0, ..Goal::default() }, Method::default());
     let problem = Problem::of(data.clone()).goal(goal).build().unwrap();
     let mut search = Search::new(problem, method).unwrap();
-    search.settle(&[root.into_draft()]);
+    search.inject(&[root.into_draft()]);
     let front = Front::of(&search);
     assert_eq!(front.members.len(), 1);
     let FrontMember { formula, verdict, .. } = &front.members[0];
@@ -249,7 +249,7 @@ fn guesses_are_taken_up() {
     let problem = Problem::of(data.clone()).goal(goal).build().unwrap();
     let mut search = Search::new(problem, method).unwrap();
     let guess = parse("bias = exp2(-(5*n_dot_v + 5*roughness^2))", &data.names()).unwrap();
-    search.settle(&[guess.into_draft()]);
+    search.inject(&[guess.into_draft()]);
     let front = Front::of(&search);
     assert_eq!(front.members.len(), 1);
     assert!(front.members[0].search_error().rmse < 0.0333, "refitted");
@@ -360,7 +360,7 @@ fn a_guess_becomes_a_child_of_the_outer_form() {
         let problem = Problem::of(data.clone()).goal(goal).build().unwrap();
         let mut search = Search::new(problem, Method::default()).unwrap();
         let guess = parse("y = rcp(1.4 + x^2)", &data.names()).unwrap().into_draft();
-        search.settle(&[guess]);
+        search.inject(&[guess]);
         let front = Front::of(&search);
         let best = front.members.last().unwrap();
         assert!(best.search_error().rmse < 1e-6, "{transform}: {}", best.formula);

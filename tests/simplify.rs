@@ -1,4 +1,4 @@
-//! Simplification keeps what a program computes, and never makes it dearer.
+//! Simplification keeps what a program computes, and never makes it costlier.
 
 use lgp::cost::{CostScratch, Profile};
 use lgp::op::Op;

@@ -13,7 +13,7 @@ pub fn of_all(run: &Run, archived: usize) -> String {
             }
         };
         return format!(
-            "no formula was found: all {archived} that the search kept are not finite somewhere in the domain or dearer than {} cycles when finished{required}; search longer, or ask for less",
+            "no formula was found: all {archived} that the search kept are not finite somewhere in the domain or costlier than {} cycles when finished{required}; search longer, or ask for less",
             run.goal.max_cost
         );
     }
@@ -22,7 +22,7 @@ pub fn of_all(run: &Run, archived: usize) -> String {
             counts.inadmissible,
             "are not built as required (--require, --transform), or nested deeper than the grammar allows",
         ),
-        (counts.too_dear, "cost more than --max-cost"),
+        (counts.too_expensive, "cost more than --max-cost"),
         (
             counts.too_long,
             "have more operations than the grammar allows, or constants that are not finite",

@@ -14,7 +14,7 @@ use serde::{Deserialize, Serialize};
 use std::path::Path;
 
 /// To be raised whenever what is serialised of a search changes: `tests/checkpoint.rs` tells.
-const LAYOUT: u32 = 6;
+const LAYOUT: u32 = 7;
 
 const MAGIC: &str = "LGPSTATE";
 

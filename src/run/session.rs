@@ -268,7 +268,7 @@ impl Session {
             self.times = None;
             return Err(SetupError::TooMany { cost, most });
         }
-        self.search.settle_until(&self.guesses, &searching);
+        self.search.inject_until(&self.guesses, &searching);
         Ok(())
     }
 

@@ -22,7 +22,7 @@ struct Statistics {
 }
 
 /// Every cheaper draft that comes of one removal: a result replaced by one of its arguments or by its
-/// mean, an argument by its mean, a dear operation by a straight line. Each structure once.
+/// mean, an argument by its mean, an expensive operation by a straight line. Each structure once.
 pub(super) fn removals(draft: &Draft, samples: &Samples, profile: &Profile) -> Vec<Removal> {
     let Some(statistics) = Statistics::of(draft, samples) else { return Vec::new() };
     let (mut scratch, mut hashes) = (CostScratch::default(), Vec::new());
@@ -114,7 +114,7 @@ fn dropped(op: Op) -> String {
     }
 }
 
-/// Cycles above which an operation is dear.
+/// Cycles above which an operation is expensive.
 const DEAR: f64 = 1.5;
 
 /// The draft with one instruction made anew: from its arguments, the result that takes its place.

@@ -181,7 +181,7 @@ impl<'a> Work<'a> {
     }
 
     /// Looks at the removals of what lies beside the way, as long as that is not dominated, the
-    /// dearest first.
+    /// costliest first.
     fn explore(&mut self) {
         for _ in 0..EXPANSIONS {
             self.keep_undominated();

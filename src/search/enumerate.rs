@@ -64,7 +64,7 @@ impl Search {
             self.state.archive.offer(Member { draft, ..member });
         }
         let is_whole = !deadline.is_past();
-        self.settle_children(&children, deadline);
+        self.inject_children(&children, deadline);
         self.state.enumeration =
             is_whole.then_some(Enumeration { cost, structures: structures.len() });
     }
@@ -105,7 +105,7 @@ fn best_of(
             }
             problem.archive_loss(formula, loss, &mut fitter.evaluator)
         });
-        Some(member).filter(|member| problem.accepts(&problem.formula(&member.draft)))
+        Some(member).filter(|member| problem.acceptable_on_samples(&problem.formula(&member.draft)))
     };
     near.into_par_iter().map_init(new_fitter, finish).flatten().collect()
 }
@@ -114,7 +114,7 @@ fn best_of(
 const PARENTS: usize = 1024;
 
 /// Children that are looked at, at most, for each structure that may be found: with many inputs nearly all
-/// are too dear.
+/// are too expensive.
 const CHILDREN: usize = 600;
 
 /// Every structure, or nothing where there are more than `most`, or no time to find out.
@@ -209,7 +209,7 @@ fn grown(draft: &Draft, problem: &Problem, cost: f64) -> Vec<(u64, Draft)> {
 
 /// A structure with the best constants of several starts, on the subset.
 fn fitted(fitter: &mut Fitter, draft: &Draft, problem: &Problem, race: &Samples) -> Option<Member> {
-    if !problem.admits(&problem.formula(draft)) {
+    if !problem.structure_ok(&problem.formula(draft)) {
         return None;
     }
     let cost = problem.cost_of_child(draft, &mut CostScratch::default());

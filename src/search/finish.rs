@@ -1,7 +1,7 @@
 //! What follows a search: its formulas polished and judged, the most valuable first, as long as there is
 //! time.
 
-use super::polish::{as_found, polish, promising, with_short_laws};
+use super::polish::{as_found, polish, shortlist, with_short_laws};
 use super::rounding::beyond_rounding;
 use super::{Front, FrontMember, Search};
 use crate::archive::Member;
@@ -95,7 +95,7 @@ impl Front {
         Front::affordable(members.into_iter(), search, measure)
     }
 
-    /// What is brought into its range by polishing may have become too dear.
+    /// What is brought into its range by polishing may have become too expensive.
     fn affordable(
         members: impl Iterator<Item = FrontMember>,
         search: &Search,
@@ -159,7 +159,7 @@ fn contending(search: &Search, measure: Measure, work: &Work) -> (Vec<Draft>, bo
     // As long to look as to polish what is worth it.
     let half = work.deadline.left().map(|left| left / 2);
     let look = half.map_or_else(|| work.deadline.clone(), |half| work.deadline.within(half));
-    promising(drafts, problem, &samples, &look)
+    shortlist(drafts, problem, &samples, &look)
 }
 
 /// What finishing a search is going to take.
@@ -172,16 +172,16 @@ pub struct Rehearsal {
 }
 
 impl Rehearsal {
-    /// Finishes the dearest member, and takes the others to be a little faster.
+    /// Finishes the costliest member, and takes the others to be a little faster.
     pub fn of(search: &Search, deadline: &Deadline) -> Rehearsal {
         let members = search.archive().members();
-        let Some(dearest) = members.last() else { return Rehearsal::default() };
+        let Some(costliest) = members.last() else { return Rehearsal::default() };
         let problem = search.problem();
         let names = problem.dataset.names();
         let start = Instant::now();
         let samples = problem.all_in(problem.goal.measure);
         let polished =
-            polish(&dearest.draft, problem, &samples, &names, problem.goal.measure, deadline);
+            polish(&costliest.draft, problem, &samples, &names, problem.goal.measure, deadline);
         let polish = start.elapsed();
         let start = Instant::now();
         let mut front = Front::from_members(polished.into_iter().collect(), problem.goal.measure);
@@ -196,7 +196,7 @@ impl Rehearsal {
     }
 }
 
-/// The time that a member takes on average, relative to the dearest.
+/// The time that a member takes on average, relative to the costliest.
 const OF_DEAREST: f64 = 0.6;
 
 #[cfg(test)]

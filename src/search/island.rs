@@ -3,7 +3,7 @@
 use super::polish::reads_only_constants;
 use super::population::{Individual, Population};
 use super::vary::{Rates, Variation, random_draft};
-use super::{Counts, Fate, Goal, Method, Problem};
+use super::{Counts, Goal, Method, Problem, Rejection};
 use crate::archive::{Archive, Member};
 use crate::cost::CostScratch;
 use crate::deadline::Deadline;
@@ -23,13 +23,13 @@ const MEMORY: usize = 1 << 17;
 /// Fits of one structure, from different starting constants, before it counts as seen.
 const TRIES: u32 = 2;
 
-/// A first look at a candidate, and what a promising one is given.
+/// A first look at a candidate, and what a shortlist one is given.
 const FIRST_STEPS: Stop = Stop { max_steps: 3, min_gain: 1e-3 };
 const MORE_STEPS: Stop = Stop { max_steps: 14, min_gain: 1e-3 };
 const ALL_SAMPLES: Stop = Stop { max_steps: 8, min_gain: 1e-3 };
 
 /// A quick look at the least maximum error.
-const LEVELLING: Rounds = Rounds {
+const QUICK_MINIMAX: Rounds = Rounds {
     most: 3,
     steps: Stop { max_steps: 2, min_gain: 1e-3 },
     linear_programs: 4,
@@ -44,8 +44,8 @@ const HOPELESS: f64 = 6.0;
 const SUBSET_TOLERANCE: f64 = 1.15;
 
 /// What sets islands apart.
-struct Way {
-    /// Of the cost budget. A cheap formula is soon as good as it gets where nothing dearer competes;
+struct Kind {
+    /// Of the cost budget. A cheap formula is soon as good as it gets where nothing costlier competes;
     /// from there it migrates to islands that may spend more. Half of the islands spend less than half: most
     /// formulas that are used are cheap.
     share: f64,
@@ -56,15 +56,15 @@ struct Way {
     by_maximum: bool,
 }
 
-const WAYS: [Way; 8] = [
-    Way { share: 1.0, by_family: false, by_maximum: false },
-    Way { share: 0.3, by_family: true, by_maximum: false },
-    Way { share: 0.6, by_family: false, by_maximum: true },
-    Way { share: 0.2, by_family: true, by_maximum: false },
-    Way { share: 0.35, by_family: false, by_maximum: false },
-    Way { share: 0.4, by_family: true, by_maximum: false },
-    Way { share: 1.0, by_family: false, by_maximum: true },
-    Way { share: 0.8, by_family: true, by_maximum: false },
+const KINDS: [Kind; 8] = [
+    Kind { share: 1.0, by_family: false, by_maximum: false },
+    Kind { share: 0.3, by_family: true, by_maximum: false },
+    Kind { share: 0.6, by_family: false, by_maximum: true },
+    Kind { share: 0.2, by_family: true, by_maximum: false },
+    Kind { share: 0.35, by_family: false, by_maximum: false },
+    Kind { share: 0.4, by_family: true, by_maximum: false },
+    Kind { share: 1.0, by_family: false, by_maximum: true },
+    Kind { share: 0.8, by_family: true, by_maximum: false },
 ];
 
 /// Of the cost budget, for the number of candidates.
@@ -86,7 +86,7 @@ pub(super) struct Island {
     seen: Vec<u32>,
     under_way: Option<UnderWay>,
     #[serde(skip)]
-    workshop: Workshop,
+    scratch: Scratch,
     /// The samples on which candidates race.
     #[serde(skip)]
     race: Arc<Samples>,
@@ -104,7 +104,7 @@ struct UnderWay {
 
 /// The memory in which candidates are made; no state between candidates.
 #[derive(Clone, Debug, Default)]
-struct Workshop {
+struct Scratch {
     variation: Variation,
     simplifier: Simplifier,
     fitter: Fitter,
@@ -116,7 +116,7 @@ struct Workshop {
 
 impl Island {
     pub fn new(number: usize, goal: &Goal, method: &Method) -> Island {
-        let Way { share, by_family, by_maximum } = WAYS[number % WAYS.len()];
+        let Kind { share, by_family, by_maximum } = KINDS[number % KINDS.len()];
         let max_cost = (goal.max_cost * share).ceil().min(goal.max_cost);
         // As many individuals on each island.
         let crowd = method.bucket_size as f64 * (goal.max_cost + 1.0);
@@ -129,7 +129,7 @@ impl Island {
             rates: Rates::default(),
             seen: vec![0; MEMORY],
             under_way: None,
-            workshop: Workshop::default(),
+            scratch: Scratch::default(),
             race: Arc::default(),
         }
     }
@@ -164,10 +164,10 @@ impl Island {
         rng.set_word_pos(under_way.word);
         let candidates = self.candidates(problem.goal.max_cost, method.candidates);
         let was_done = under_way.considered >= candidates;
-        self.workshop.variation.follow(&under_way.rates);
-        self.workshop.fitter.deadline = deadline.moment_alone();
+        self.scratch.variation.follow(&under_way.rates);
+        self.scratch.fitter.deadline = deadline.moment_alone();
         while under_way.considered < candidates && !deadline.is_past() {
-            let made_by = self.conceive(&mut rng, problem, method.immigrants);
+            let made_by = self.make_offspring(&mut rng, problem, method.immigrants);
             let Counts { fitted, admitted, .. } = self.counts;
             self.consider(problem);
             if self.counts.fitted > fitted {
@@ -203,8 +203,8 @@ impl Island {
 
     /// Makes a child of the population, or a random draft where there is none, or for an immigrant. Gives
     /// the changes that made it.
-    fn conceive(&mut self, rng: &mut ChaCha8Rng, problem: &Problem, immigrants: f64) -> u16 {
-        let Workshop { variation, child, .. } = &mut self.workshop;
+    fn make_offspring(&mut self, rng: &mut ChaCha8Rng, problem: &Problem, immigrants: f64) -> u16 {
+        let Scratch { variation, child, .. } = &mut self.scratch;
         let immigrates = immigrants > 0.0 && rng.random::<f64>() < immigrants;
         match (self.population.pick(rng), self.population.pick(rng)) {
             (Some(parent), Some(donor)) if !immigrates => {
@@ -222,44 +222,46 @@ impl Island {
     /// Simplifies, costs, fits and offers the child; drops it where it has no chance.
     fn consider(&mut self, problem: &Problem) {
         self.counts.considered += 1;
-        match self.newcomer(problem) {
-            Err(fate) => self.counts.note(fate),
+        match self.evaluated(problem) {
+            Err(rejection) => self.counts.note(rejection),
             Ok(newcomer) => {
                 self.counts.admitted += 1;
                 let Individual { cost, loss, .. } = newcomer;
                 if self.population.offer(newcomer) {
-                    self.nominate(problem, cost, loss);
+                    self.offer_to_archive(problem, cost, loss);
                 }
             }
         }
     }
 
     /// What the child has become, if the population may want it.
-    fn newcomer(&mut self, problem: &Problem) -> Result<Individual, Fate> {
-        let workshop = &mut self.workshop;
-        let cost = workshop.prepare(problem, self.population.max_cost)?;
-        let hash = workshop.structure(problem);
+    fn evaluated(&mut self, problem: &Problem) -> Result<Individual, Rejection> {
+        let scratch = &mut self.scratch;
+        let cost = scratch.prepare(problem, self.population.max_cost)?;
+        let hash = scratch.structure(problem);
         if !remember(&mut self.seen, hash) {
-            return Err(Fate::Seen);
+            return Err(Rejection::Seen);
         }
-        if !problem.admits(&problem.formula(&workshop.candidate)) {
-            return Err(Fate::Inadmissible);
+        if !problem.structure_ok(&problem.formula(&scratch.candidate)) {
+            return Err(Rejection::Inadmissible);
         }
         self.counts.fitted += 1;
-        let admission = self.population.admission(&workshop.candidate, cost);
-        let loss = workshop.race(problem, &self.race, admission, self.by_maximum)?;
-        let formula = problem.formula(&workshop.candidate);
-        if problem.holds(&formula, &mut workshop.fitter.evaluator) {
-            return Ok(Individual { draft: workshop.candidate.clone(), cost, loss, hash });
+        let admission = self.population.admission(&scratch.candidate, cost);
+        let loss = scratch.race(problem, &self.race, admission, self.by_maximum)?;
+        let formula = problem.formula(&scratch.candidate);
+        if problem.holds_on_samples(&formula, &mut scratch.fitter.evaluator) {
+            return Ok(Individual { draft: scratch.candidate.clone(), cost, loss, hash });
         }
-        self.clamped(problem).ok_or(Fate::Unfulfilled)
+        self.clamped(problem).ok_or(Rejection::Unfulfilled)
     }
 
     /// Clamped outputs may be the cheapest way to what is required; around an outer form no child clamps.
     fn clamped(&mut self, problem: &Problem) -> Option<Individual> {
-        let Workshop { fitter, cost: scratch, candidate, .. } = &mut self.workshop;
+        let Scratch { fitter, cost: scratch, candidate, .. } = &mut self.scratch;
         *candidate = problem.clamped(candidate).filter(|_| problem.outer.is_none())?;
-        if !problem.admits(candidate) || candidate.instrs.len() > problem.grammar.max_instructions {
+        if !problem.structure_ok(candidate)
+            || candidate.instrs.len() > problem.grammar.max_instructions
+        {
             return None;
         }
         let cost = problem.cost(candidate, scratch);
@@ -267,23 +269,24 @@ impl Island {
         let mut loss =
             fitter.fit(candidate, &self.race, MORE_STEPS) * (1.0 / self.race.total_weight());
         if loss < admission && self.by_maximum {
-            loss = levelled(fitter, candidate, usize::MAX, &self.race, admission);
+            loss = minimax_loss(fitter, candidate, usize::MAX, &self.race, admission);
         }
-        let fulfils = loss < admission && problem.holds(candidate, &mut fitter.evaluator);
-        let hash = self.workshop.structure(problem);
-        let draft = &self.workshop.candidate;
+        let fulfils =
+            loss < admission && problem.holds_on_samples(candidate, &mut fitter.evaluator);
+        let hash = self.scratch.structure(problem);
+        let draft = &self.scratch.candidate;
         fulfils.then(|| Individual { draft: draft.clone(), cost, loss, hash })
     }
 
     /// Offers the candidate, whose loss on the subset is given, to the archive, fitted on all samples, if
     /// it may be wanted there.
-    fn nominate(&mut self, problem: &Problem, cost: f64, mut loss: f64) {
-        let Workshop { fitter, candidate, .. } = &mut self.workshop;
+    fn offer_to_archive(&mut self, problem: &Problem, cost: f64, mut loss: f64) {
+        let Scratch { fitter, candidate, .. } = &mut self.scratch;
         let wanted = self.archive.best_loss(cost) * SUBSET_TOLERANCE;
         let by_maximum = problem.goal.measure == Measure::Max;
         problem.on_formula(candidate, |formula, own| {
             if by_maximum && !self.by_maximum {
-                loss = levelled(fitter, formula, own, &self.race, wanted);
+                loss = minimax_loss(fitter, formula, own, &self.race, wanted);
             }
             if loss >= wanted {
                 return;
@@ -292,52 +295,52 @@ impl Island {
             let sum = fitter.fit_free(formula, &problem.all, ALL_SAMPLES, |i| i < own);
             let mut loss = sum * problem.scale();
             if by_maximum {
-                loss = levelled(fitter, formula, own, &problem.all, wanted);
+                loss = minimax_loss(fitter, formula, own, &problem.all, wanted);
             }
             let loss = problem.archive_loss(formula, loss, &mut fitter.evaluator);
-            if problem.holds(formula, &mut fitter.evaluator) {
+            if problem.holds_on_samples(formula, &mut fitter.evaluator) {
                 self.archive.offer(Member { cost, loss, draft: formula.clone() });
             }
         });
     }
 
     /// Takes in another island's best.
-    pub fn welcome(&mut self, migrants: Vec<Individual>) {
+    pub fn immigrate(&mut self, migrants: Vec<Individual>) {
         for migrant in migrants {
             self.population.offer(migrant);
         }
     }
 
     /// Takes drafts from elsewhere into the population, as many as the deadline leaves time for.
-    pub fn settle_all<'a>(
+    pub fn inject_all<'a>(
         &mut self,
         drafts: impl IntoIterator<Item = &'a Draft>,
         problem: &Problem,
         deadline: &Deadline,
     ) {
-        self.workshop.fitter.deadline = deadline.moment_alone();
+        self.scratch.fitter.deadline = deadline.moment_alone();
         for draft in drafts {
             if deadline.is_past() {
                 return;
             }
-            self.settle(draft, problem);
+            self.inject(draft, problem);
         }
     }
 
     /// Takes a draft from elsewhere into the population, fitted; equal constants in it are fitted
     /// apart.
-    fn settle(&mut self, draft: &Draft, problem: &Problem) {
-        let child = &mut self.workshop.child;
+    fn inject(&mut self, draft: &Draft, problem: &Problem) {
+        let child = &mut self.scratch.child;
         child.copy_from(draft);
         child.unshare_constants();
         self.consider(problem);
     }
 }
 
-impl Workshop {
+impl Scratch {
     /// Makes the child a candidate, effective code as the grammar writes it, and costs it.
-    fn prepare(&mut self, problem: &Problem, max_cost: f64) -> Result<f64, Fate> {
-        let Workshop { simplifier, cost: scratch, child, candidate, .. } = self;
+    fn prepare(&mut self, problem: &Problem, max_cost: f64) -> Result<f64, Rejection> {
+        let Scratch { simplifier, cost: scratch, child, candidate, .. } = self;
         simplifier.simplify(child, candidate);
         if !is_written_in(candidate, problem) {
             simplifier.fold_constants(child, candidate);
@@ -345,10 +348,10 @@ impl Workshop {
         let constants_are_finite =
             candidate.consts.iter().all(|c| c.is_finite()) && !reads_only_constants(candidate);
         if candidate.instrs.len() > problem.grammar.max_instructions || !constants_are_finite {
-            return Err(Fate::TooLong);
+            return Err(Rejection::TooLong);
         }
         let cost = problem.cost_of_child(candidate, scratch);
-        if cost > max_cost { Err(Fate::TooDear) } else { Ok(cost) }
+        if cost > max_cost { Err(Rejection::TooExpensive) } else { Ok(cost) }
     }
 
     fn structure(&mut self, problem: &Problem) -> u64 {
@@ -363,37 +366,37 @@ impl Workshop {
         subset: &Samples,
         admission: f64,
         by_maximum: bool,
-    ) -> Result<f64, Fate> {
-        let Workshop { fitter, candidate, .. } = self;
+    ) -> Result<f64, Rejection> {
+        let Scratch { fitter, candidate, .. } = self;
         let scale = 1.0 / subset.total_weight();
         problem.on_formula(candidate, |formula, own| {
             let first = fitter.fit_free(formula, subset, FIRST_STEPS, |i| i < own) * scale;
             if !first.is_finite() {
-                return Err(Fate::NotFinite);
+                return Err(Rejection::NotFinite);
             }
             if first > admission * HOPELESS {
-                return Err(Fate::Hopeless);
+                return Err(Rejection::Hopeless);
             }
             let mut loss = fitter.go_on(formula, subset, MORE_STEPS) * scale;
             // The mean of the squares is a lower bound of the square of the maximum.
             if loss < admission && by_maximum {
-                loss = levelled(fitter, formula, own, subset, admission);
+                loss = minimax_loss(fitter, formula, own, subset, admission);
             }
-            if loss < admission { Ok(loss) } else { Err(Fate::NoBetter) }
+            if loss < admission { Ok(loss) } else { Err(Rejection::NoBetter) }
         })
     }
 }
 
 /// The square of the maximum error, made small by the first `own` constants so long as it may come below what is
 /// wanted.
-fn levelled(
+fn minimax_loss(
     fitter: &mut Fitter,
     draft: &mut Draft,
     own: usize,
     samples: &Samples,
     wanted: f64,
 ) -> f64 {
-    let rounds = Rounds { wanted: wanted.sqrt(), ..LEVELLING };
+    let rounds = Rounds { wanted: wanted.sqrt(), ..QUICK_MINIMAX };
     minimax_free(fitter, draft, samples, rounds, |i| i < own).powi(2)
 }
 

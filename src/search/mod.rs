@@ -5,7 +5,7 @@
 //! generations, in the islands' order. So the number of threads changes nothing but the time.
 //!
 //! Islands differ in the cycles that a formula may cost there, and in who competes: on some only formulas
-//! with the same families of operations, so that a root or an exponential, dear at first, can grow. Where the
+//! with the same families of operations, so that a root or an exponential, expensive at first, can grow. Where the
 //! maximum error is to be small, it decides in the archive, and on every fourth island; on the others RMSE
 //! does, which is found out sooner.
 
@@ -65,7 +65,7 @@ pub struct Counts {
     /// More instructions than the grammar allows, or constants that are not finite.
     pub too_long: u64,
     /// Out of the cost budget.
-    pub too_dear: u64,
+    pub too_expensive: u64,
     /// Of a structure that was fitted before.
     pub seen: u64,
     /// Not built as required, or nested deeper than the grammar allows.
@@ -85,9 +85,9 @@ pub struct Counts {
 
 /// Where a candidate ended that was not admitted.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum Fate {
+enum Rejection {
     TooLong,
-    TooDear,
+    TooExpensive,
     Seen,
     Inadmissible,
     NotFinite,
@@ -97,16 +97,16 @@ enum Fate {
 }
 
 impl Counts {
-    fn note(&mut self, fate: Fate) {
-        *match fate {
-            Fate::TooLong => &mut self.too_long,
-            Fate::TooDear => &mut self.too_dear,
-            Fate::Seen => &mut self.seen,
-            Fate::Inadmissible => &mut self.inadmissible,
-            Fate::NotFinite => &mut self.not_finite,
-            Fate::Hopeless => &mut self.hopeless,
-            Fate::NoBetter => &mut self.no_better,
-            Fate::Unfulfilled => &mut self.unfulfilled,
+    fn note(&mut self, rejection: Rejection) {
+        *match rejection {
+            Rejection::TooLong => &mut self.too_long,
+            Rejection::TooExpensive => &mut self.too_expensive,
+            Rejection::Seen => &mut self.seen,
+            Rejection::Inadmissible => &mut self.inadmissible,
+            Rejection::NotFinite => &mut self.not_finite,
+            Rejection::Hopeless => &mut self.hopeless,
+            Rejection::NoBetter => &mut self.no_better,
+            Rejection::Unfulfilled => &mut self.unfulfilled,
         } += 1;
     }
 
@@ -115,7 +115,7 @@ impl Counts {
         let Counts {
             considered,
             too_long,
-            too_dear,
+            too_expensive,
             seen,
             inadmissible,
             fitted,
@@ -128,7 +128,7 @@ impl Counts {
         } = other;
         self.considered += considered;
         self.too_long += too_long;
-        self.too_dear += too_dear;
+        self.too_expensive += too_expensive;
         self.seen += seen;
         self.inadmissible += inadmissible;
         self.fitted += fitted;
@@ -335,29 +335,29 @@ impl Search {
         arriving.rotate_right(1);
         islands.par_iter_mut().zip(arriving).for_each(|(island, (by_maximum, migrants))| {
             match by_maximum == island.by_maximum {
-                true => island.welcome(migrants),
+                true => island.immigrate(migrants),
                 false => {
-                    island.settle_all(migrants.iter().map(|one| &one.draft), problem, deadline)
+                    island.inject_all(migrants.iter().map(|one| &one.draft), problem, deadline)
                 }
             }
         });
     }
 
     /// Starts every island with drafts from elsewhere, over the dataset's columns.
-    pub fn settle(&mut self, drafts: &[Draft]) {
-        self.settle_until(drafts, &Deadline::NEVER);
+    pub fn inject(&mut self, drafts: &[Draft]) {
+        self.inject_until(drafts, &Deadline::NEVER);
     }
 
-    /// [`Search::settle`] of the first drafts, as many as the deadline leaves time for.
-    pub fn settle_until(&mut self, drafts: &[Draft], deadline: &Deadline) {
+    /// [`Search::inject`] of the first drafts, as many as the deadline leaves time for.
+    pub fn inject_until(&mut self, drafts: &[Draft], deadline: &Deadline) {
         let children: Vec<Draft> =
             drafts.iter().map(|draft| self.problem.searched_child(draft)).collect();
-        self.settle_children(&children, deadline);
+        self.inject_children(&children, deadline);
     }
 
-    fn settle_children(&mut self, children: &[Draft], deadline: &Deadline) {
+    fn inject_children(&mut self, children: &[Draft], deadline: &Deadline) {
         let (problem, islands) = (&*self.problem, self.state.islands.par_iter_mut());
-        islands.for_each(|island| island.settle_all(children, problem, deadline));
+        islands.for_each(|island| island.inject_all(children, problem, deadline));
         self.barrier(deadline);
     }
 }

@@ -98,7 +98,7 @@ pub(super) fn with_short_laws(
         let program = effective(&tidy(&program));
         let short = FrontMember::new(program, &problem.dataset, &problem.profile, &names);
         let is_law = rounding.covers(&short.score, measure) && short.score.is_finite();
-        let stays = is_law && short.cost <= member.cost && problem.shows(&short.program);
+        let stays = is_law && short.cost <= member.cost && problem.may_show(&short.program);
         if stays { short } else { member }
     };
     let each = members.into_iter().map(|member| match rounding.covers(&member.score, measure) {
@@ -115,11 +115,11 @@ pub(super) fn as_found(draft: &Draft, problem: &Problem, names: &Names) -> Optio
     Simplifier::default().simplify(&problem.natural(draft), &mut simple);
     let program = effective(&Program::verify(simple).ok()?);
     let member = FrontMember::new(program, &problem.dataset, &problem.profile, names);
-    (member.score.is_finite() && problem.shows(&member.program)).then_some(member)
+    (member.score.is_finite() && problem.may_show(&member.program)).then_some(member)
 }
 
 /// The formula without what is superfluous and with guards, or as it is where that makes it worse or
-/// dearer; nothing where none is as required.
+/// costlier; nothing where none is as required.
 fn finished(
     draft: &Draft,
     problem: &Problem,
@@ -148,7 +148,7 @@ fn finished(
     let rounding = Rounding::of(problem);
     let error = |member: &FrontMember| rounding.at_least(&member.score).joint_search().of(measure);
     let shown =
-        finished.filter(|member| member.score.is_finite() && problem.shows(&member.program));
+        finished.filter(|member| member.score.is_finite() && problem.may_show(&member.program));
     shown.reduce(|plain, other| {
         let as_good = other.cost <= plain.cost && error(&other) <= error(&plain) * WORSE;
         if as_good { other } else { plain }
@@ -180,14 +180,14 @@ fn guarded(draft: &Draft, problem: &Problem) -> Option<Draft> {
 
 /// Of many drafts those that come near the least maximum error at their cost, by a quick look, and of
 /// those by a closer one; and whether the deadline left some out.
-pub(super) fn promising(
+pub(super) fn shortlist(
     drafts: Vec<Draft>,
     problem: &Problem,
     samples: &Samples,
     deadline: &Deadline,
 ) -> (Vec<Draft>, bool) {
-    let first = looked_at(drafts, problem, samples, FIRST_LOOK, 1.4, deadline);
-    let second = looked_at(first, problem, samples, SECOND_LOOK, 1.1, deadline);
+    let first = screened(drafts, problem, samples, FIRST_LOOK, 1.4, deadline);
+    let second = screened(first, problem, samples, SECOND_LOOK, 1.1, deadline);
     (second, deadline.is_past())
 }
 
@@ -200,7 +200,7 @@ const FIRST_LOOK: Rounds = Rounds {
 const SECOND_LOOK: Rounds = Rounds { most: 0, linear_programs: 4, ..FIRST_LOOK };
 
 /// Those whose maximum error, made small, is less than `within` times that of every cheaper one.
-fn looked_at(
+fn screened(
     drafts: Vec<Draft>,
     problem: &Problem,
     samples: &Samples,

@@ -30,7 +30,7 @@ pub(super) struct Population {
     bucket_size: usize,
 }
 
-/// Which of exponentials, roots and quotients a draft has. They are dear: at first the like of
+/// Which of exponentials, roots and quotients a draft has. They are expensive: at first the like of
 /// `sqrt(1 - x)` errs more than a polynomial of its cost, and where both compete it is gone before
 /// anything has grown on it.
 const FAMILIES: usize = 8;

@@ -195,7 +195,7 @@ impl Checks {
     }
 
     /// Whether a formula is built as required; its values are not looked at.
-    pub fn admits(&self, draft: &Draft) -> bool {
+    pub fn structure_ok(&self, draft: &Draft) -> bool {
         self.requirements.iter().all(|requirement| match *requirement {
             Requirement::Operation(wanted) => draft.instrs.iter().any(|instr| instr.op() == wanted),
             Requirement::Input(wanted) => {
@@ -207,7 +207,7 @@ impl Checks {
     }
 
     /// Whether a formula's values are as required on the samples.
-    pub fn hold(&self, draft: &Draft, evaluator: &mut Evaluator) -> bool {
+    pub fn hold_on_samples(&self, draft: &Draft, evaluator: &mut Evaluator) -> bool {
         let of_halves = |one: &Requirement| matches!(one, Requirement::Half { .. });
         if self.samples.iter().all(Vec::is_empty) && !self.requirements.iter().any(of_halves) {
             return true;
@@ -277,7 +277,7 @@ impl Checks {
     }
 
     /// Whether nothing required is refuted anywhere in the domain.
-    fn stand(&self, program: &Program, dataset: &Dataset) -> bool {
+    fn not_refuted(&self, program: &Program, dataset: &Dataset) -> bool {
         let domain = Questions::of(&dataset.inputs, &[]).domain;
         let mut claims = Vec::new();
         for requirement in &self.requirements {
@@ -404,18 +404,18 @@ fn both_splits(dataset: &Dataset) -> Split {
 
 impl Problem {
     /// Whether a formula is built as required, and as the grammar allows.
-    pub(super) fn admits(&self, draft: &Draft) -> bool {
-        self.checks.admits(draft) && self.grammar.allows_nesting(draft)
+    pub(super) fn structure_ok(&self, draft: &Draft) -> bool {
+        self.checks.structure_ok(draft) && self.grammar.allows_nesting(draft)
     }
 
     /// Whether a draft of the search has values as required, as far as samples show it.
-    pub(super) fn holds(&self, draft: &Draft, evaluator: &mut Evaluator) -> bool {
-        self.checks.hold(&self.natural(draft), evaluator)
+    pub(super) fn holds_on_samples(&self, draft: &Draft, evaluator: &mut Evaluator) -> bool {
+        self.checks.hold_on_samples(&self.natural(draft), evaluator)
     }
 
     /// Whether a draft of the search is as required, as far as samples show it.
-    pub(super) fn accepts(&self, draft: &Draft) -> bool {
-        self.admits(draft) && self.holds(draft, &mut Evaluator::default())
+    pub(super) fn acceptable_on_samples(&self, draft: &Draft) -> bool {
+        self.structure_ok(draft) && self.holds_on_samples(draft, &mut Evaluator::default())
     }
 
     /// [`Checks::clamped`] of a draft of the search.
@@ -426,11 +426,11 @@ impl Problem {
 
     /// Whether a formula over the dataset's columns, which is to be shown, is as required, wherever its inputs
     /// are in the domain.
-    pub(super) fn shows(&self, program: &Program) -> bool {
-        self.checks.admits(program)
+    pub(super) fn may_show(&self, program: &Program) -> bool {
+        self.checks.structure_ok(program)
             && self.grammar.allows_nesting(program)
-            && self.checks.hold(program, &mut Evaluator::default())
-            && self.checks.stand(program, &self.dataset)
+            && self.checks.hold_on_samples(program, &mut Evaluator::default())
+            && self.checks.not_refuted(program, &self.dataset)
     }
 
     /// What is asked of each formula that is shown.

@@ -23,7 +23,7 @@ pub(super) struct Cycles {
 
 impl Cycles {
     pub(super) fn over(cycles: impl Iterator<Item = f64>) -> Cycles {
-        // Room for the marker of the dearest.
+        // Room for the marker of the costliest.
         let most = cycles.fold(0.0, f64::max).min(MOST_CYCLES) * 1.01;
         let mut steps = (0..).map(|i| mantissa(i) * 10f64.powi(i / 3));
         let step = steps.find(|step| step * 10.0 >= most).unwrap_or(MOST_CYCLES);

@@ -17,12 +17,12 @@ function drawFront() {
   const shown = [...members, ...published].filter(([c, e]) => Number.isFinite(c) && Number.isFinite(e));
   const tables = data.lookup_tables.filter((table) => table.error[measure()] > 0);
   const costs = shown.map((p) => p[0]);
-  const dearest = Math.max(1e-3, ...costs) * 1.04;
-  const cheapest = Math.min(...costs.filter((c) => c > 0), dearest / 2);
+  const costliest = Math.max(1e-3, ...costs) * 1.04;
+  const cheapest = Math.min(...costs.filter((c) => c > 0), costliest / 2);
   const least = Math.min(...shown.map((p) => p[1]).filter((e) => e > 0));
   // A table far below the front would squeeze it.
   const seen = tables.filter((table) => table.error[measure()] > least / 8);
-  const xScale = state.logarithmic ? logarithmic(cheapest / 1.6, dearest * 1.1) : linear(0, dearest);
+  const xScale = state.logarithmic ? logarithmic(cheapest / 1.6, costliest * 1.1) : linear(0, costliest);
   const yScale = logarithmicOver([...shown.map((p) => p[1]), ...seen.map((table) => table.error[measure()])]);
   // Beside the formula as high as that, so far as it is a plot and no tower.
   const beside = byId("formula").offsetTop === byId("front").offsetTop ? byId("formula").offsetHeight - 130 : 0;
