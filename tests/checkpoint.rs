@@ -18,16 +18,16 @@ fn golden() -> PathBuf {
 }
 
 fn dataset() -> Dataset {
-    let column = |name: &str| Column { name: name.into(), unit: "1".into(), domain: [0.0, 1.0] };
+    let column = |name| Column::new(name, [0.0, 1.0]);
     let xs: Vec<f32> = (0..16).map(|i| i as f32 / 15.0).collect();
     let split = Split { columns: vec![xs.clone(), xs.clone(), xs], ..Split::default() };
     Dataset {
         name: "golden".into(),
-        recipe: String::new(),
         inputs: vec![column("x"), column("u")],
         outputs: vec![column("y")],
         search: split.clone(),
         validation: split,
+        ..Dataset::default()
     }
 }
 

@@ -2,7 +2,7 @@
 //! taken for something else.
 #![cfg(unix)]
 
-use lgp::dataset::{Column, Dataset, Split};
+use lgp::dataset::{Dataset, Origin, axis};
 use std::ffi::{OsStr, OsString};
 use std::os::unix::ffi::{OsStrExt, OsStringExt};
 use std::os::unix::fs::{FileTypeExt, symlink};
@@ -46,17 +46,8 @@ const NAMES: [&str; 9] =
     ["../../x", "/etc/x", "", ".", "..", "a\0b", "\u{1b}[31mred", "\u{202e}gpj.exe", "a\nb"];
 
 fn line() -> Dataset {
-    let column = |name: &str| Column { name: name.into(), unit: "1".into(), domain: [0.0, 1.0] };
-    let values: Vec<f32> = (0..20).map(|i| i as f32 / 19.0).collect();
-    let split = Split { columns: vec![values.clone(), values], ..Split::default() };
-    Dataset {
-        name: "line".into(),
-        recipe: String::new(),
-        inputs: vec![column("x")],
-        outputs: vec![column("y")],
-        search: split.clone(),
-        validation: split,
-    }
+    let line = Dataset::sampled([axis("x", 0.0..=1.0)], ["y"], |x| x).unwrap();
+    Dataset { name: "line".into(), ..line }
 }
 
 /// A folder with a dataset, a table, and a run of a generation.
@@ -228,7 +219,8 @@ fn what_is_said_of_hostile_text_is_escaped() {
         assert!(said.code == USAGE || said.code == INPUT, "{words:?}: {}", said.stderr);
         assert_calm(&said);
     }
-    let recipe = Dataset { recipe: format!("made by {hostile}\nand more"), ..line() };
+    let text = format!("made by {hostile}\nand more");
+    let recipe = Dataset { origin: Origin::Formula { text }, ..line() };
     recipe.save(&here.join("recipe.bin")).unwrap();
     for words in [&["info", "recipe.bin"][..], &["info", "recipe.bin", "--json"]] {
         let said = lgp(here, words);
@@ -237,7 +229,7 @@ fn what_is_said_of_hostile_text_is_escaped() {
     }
     let said = lgp(here, &["info", "recipe.bin", "--json"]);
     let said: serde_json::Value = serde_json::from_str(&said.stdout).unwrap();
-    assert_eq!(said["recipe"], recipe.recipe, "escaped JSON says the same");
+    assert_eq!(said["recipe"], recipe.origin.to_string(), "escaped JSON says the same");
 }
 
 /// Every command that reads a file, with what it is given of it last.

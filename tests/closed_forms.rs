@@ -26,7 +26,7 @@ fn committed_datasets_are_made_again() {
     for name in NAMES {
         let recipe = Recipe::load(&committed(&format!("{name}.ron"))).unwrap();
         let (made, again) = (load(name), generate(&recipe, &|_, _| {}).unwrap());
-        assert_eq!((&again.inputs, &again.recipe), (&made.inputs, &made.recipe), "{name}");
+        assert_eq!((&again.inputs, &again.origin), (&made.inputs, &made.origin), "{name}");
         for (again, made) in [(&again.search, &made.search), (&again.validation, &made.validation)]
         {
             assert_eq!((&again.grid, &again.weights), (&made.grid, &made.weights), "{name}");

@@ -23,11 +23,11 @@ fn dataset(inputs: usize, rows: u32, f: fn(&[f32]) -> Vec<f32>) -> Dataset {
     let split = Split { columns, ..Split::default() };
     Dataset {
         name: "cut".into(),
-        recipe: "cut".into(),
         inputs: (0..inputs).map(|i| column(format!("x{i}"))).collect(),
         outputs: (0..outputs).map(|i| column(format!("y{i}"))).collect(),
         search: split.clone(),
         validation: split,
+        ..Dataset::default()
     }
 }
 

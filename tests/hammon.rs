@@ -197,7 +197,7 @@ fn threads_change_nothing() {
 fn the_dataset_is_as_its_recipe_says() {
     let recipe = Recipe::load(&path("datasets/hammon.ron")).unwrap();
     let made = Dataset::load(&path("datasets/hammon.bin")).unwrap();
-    assert_eq!(Recipe::parse(&made.recipe).unwrap(), recipe);
+    assert_eq!(Recipe::parse(&made.origin.source()).unwrap(), recipe);
     assert_eq!([made.search.rows(), made.validation.rows()], [3584, 6561]);
     for split in [&made.search, &made.validation] {
         let lengths = split.standard_errors.iter().map(Vec::len);

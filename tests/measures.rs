@@ -19,15 +19,14 @@ fn dataset(scale: f32) -> Dataset {
         let columns = [xs].into_iter().chain(outputs).collect();
         Split { columns, weights, free, ..Split::default() }
     };
-    let column =
-        |name: &str, high: f64| Column { name: name.into(), unit: "1".into(), domain: [0.0, high] };
+    let column = |name, high| Column::new(name, [0.0, high]);
     Dataset {
         name: "two".into(),
-        recipe: "sin(3x), x²".into(),
         inputs: vec![column("x", 1.0)],
         outputs: vec![column("wave", 1.2), column("square", 1.1 * f64::from(scale))],
         search: split(120, 0.0),
         validation: split(77, 0.5),
+        ..Dataset::default()
     }
 }
 

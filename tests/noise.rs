@@ -20,15 +20,14 @@ fn sampled(inputs: &[&str], outputs: &[&str], laws: &[fn(&[f64]) -> f64]) -> Dat
         }
         Split { columns, ..Split::default() }
     };
-    let column =
-        |name: &&str| Column { name: (*name).into(), unit: "1".into(), domain: [1.0, 5.0] };
+    let column = |name: &&str| Column::new(name, [1.0, 5.0]);
     Dataset {
         name: "law".into(),
-        recipe: "law".into(),
         inputs: inputs.iter().map(column).collect(),
         outputs: outputs.iter().map(column).collect(),
         search: split(1, 200),
         validation: split(1000, 150),
+        ..Dataset::default()
     }
 }
 

@@ -36,7 +36,11 @@ fn dielectrics_have_one_output_and_their_own_incumbent() {
             assert!((split.columns[2][row] - specular).abs() < 1e-6);
         }
     }
-    assert!(data.recipe.ends_with("// scene dielectric: f0 = 0.04; specular = f0*scale + bias"));
+    assert!(
+        data.origin
+            .to_string()
+            .ends_with("// scene dielectric: f0 = 0.04; specular = f0*scale + bias")
+    );
     assert_ne!(data.hash(), whole.hash());
 
     let own = load_incumbents(&committed("incumbents/dfg_dielectric.ron")).unwrap();

@@ -22,15 +22,15 @@ fn function(name: &str, end: f64, samples: u32, f: fn(f32) -> f32) -> Dataset {
     let at = |i: u32| end as f32 * (i as f32 / (samples - 1) as f32);
     let xs: Vec<f32> = (0..samples).map(at).collect();
     let ys = xs.iter().map(|&x| f(x)).collect();
-    let column = |name: &str| Column { name: name.into(), unit: "1".into(), domain: [0.0, end] };
+    let column = |name| Column::new(name, [0.0, end]);
     let split = Split { columns: vec![xs, ys], ..Split::default() };
     Dataset {
         name: name.into(),
-        recipe: name.into(),
         inputs: vec![column("x")],
         outputs: vec![column("y")],
         search: split.clone(),
         validation: split,
+        ..Dataset::default()
     }
 }
 

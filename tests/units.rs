@@ -39,11 +39,11 @@ fn dataset(
     let outputs = search.columns.len() - 2;
     Dataset {
         name: name.into(),
-        recipe: name.into(),
         inputs: vec![column(0, "x".into()), column(1, "z".into())],
         outputs: (0..outputs).map(|o| column(2 + o, format!("y{o}"))).collect(),
         search,
         validation,
+        ..Dataset::default()
     }
 }
 

@@ -4,7 +4,7 @@
 //! search split is the cell centres of a grid over the domain; the validation split, disjoint from
 //! them, has the domain's edges, its points weighted by the area that they stand for.
 
-use lgp::dataset::{Column, Dataset, Split};
+use lgp::dataset::{Column, Dataset, Origin, Split, grid_weights};
 use lgp::microfacet::ggx;
 use std::f64::consts::PI;
 
@@ -186,65 +186,31 @@ fn agx(x: f64) -> f64 {
 
 impl Function {
     pub fn dataset(&self) -> Dataset {
-        let column = |name: &str, domain| Column { name: name.into(), unit: "1".into(), domain };
-        let search = self.split(&vec![self.centres(); self.inputs.len()]);
-        let validation = self.split(&vec![self.corners(); self.inputs.len()]);
-        let values = || {
-            [&search, &validation]
-                .map(|s| s.columns[self.inputs.len()].iter())
-                .into_iter()
-                .flatten()
-        };
-        let range = |f: fn(f32, f32) -> f32| f64::from(values().copied().reduce(f).unwrap_or(0.0));
-        let output = column(self.output, [range(f32::min), range(f32::max)]);
-        Dataset {
-            name: self.name.into(),
-            recipe: self.definition.into(),
-            inputs: self.inputs.iter().map(|&(name, domain)| column(name, domain)).collect(),
-            outputs: vec![output],
-            search,
-            validation,
-        }
-    }
-
-    /// Places in [0, 1] and their weights.
-    fn centres(&self) -> Vec<(f64, f64)> {
-        (0..self.points).map(|i| ((i as f64 + 0.5) / self.points as f64, 1.0)).collect()
-    }
-
-    fn corners(&self) -> Vec<(f64, f64)> {
         let cells = self.points * self.finer;
-        let weight = |i| if i == 0 || i == cells { 0.5 } else { 1.0 };
-        (0..=cells).map(|i| (i as f64 / cells as f64, weight(i))).collect()
+        let centres: Vec<f64> =
+            (0..self.points).map(|i| (i as f64 + 0.5) / self.points as f64).collect();
+        let corners: Vec<f64> = (0..=cells).map(|i| i as f64 / cells as f64).collect();
+        let [search, mut validation] = [centres, corners].map(|places| self.split(&places));
+        let lengths = (0..=cells).map(|i| if i == 0 || i == cells { 0.5 } else { 1.0 }).collect();
+        validation.weights = grid_weights(&vec![lengths; self.inputs.len()]);
+        let origin = Origin::Formula { text: self.definition.into() };
+        let inputs = self.inputs.iter().map(|&(name, domain)| Column::new(name, domain)).collect();
+        Dataset::of_splits(self.name, origin, inputs, [(self.output, "1")], [search, validation])
+            .expect("finite values under identifiers")
     }
 
-    /// The function on a grid of places, the last input varying fastest.
-    fn split(&self, axes: &[Vec<(f64, f64)>]) -> Split {
-        let grid: Vec<usize> = axes.iter().map(Vec::len).collect();
-        let rows = grid.iter().product();
-        let mut columns = vec![Vec::with_capacity(rows); axes.len() + 1];
-        let mut weights = Vec::with_capacity(rows);
-        for row in 0..rows {
-            let (mut rest, mut weight) = (row, 1.0);
-            let mut point = vec![0.0; axes.len()];
-            for (axis, places) in axes.iter().enumerate().rev() {
-                let (place, share) = places[rest % places.len()];
-                let [low, high] = self.inputs[axis].1;
-                // What the column holds is what the function is taken of.
-                point[axis] = f64::from((low + place * (high - low)) as f32).clamp(low, high);
-                rest /= places.len();
-                weight *= share;
-            }
-            for (column, value) in columns.iter_mut().zip(&point) {
-                column.push(*value as f32);
-            }
-            columns[axes.len()].push((self.exact)(&point) as f32);
-            weights.push(weight as f32);
-        }
-        if weights.iter().all(|&weight| weight == 1.0) {
-            weights.clear();
-        }
-        Split { columns, weights, grid, ..Split::default() }
+    /// The function at places of [0, 1] along each input.
+    fn split(&self, places: &[f64]) -> Split {
+        let along = |&(_, [low, high]): &(&str, [f64; 2])| -> Vec<f32> {
+            places.iter().map(|place| (low + place * (high - low)) as f32).collect()
+        };
+        let along: Vec<Vec<f32>> = self.inputs.iter().map(along).collect();
+        Split::on_grid(&along, |point| {
+            // The ends of a domain need not be numbers of f32.
+            let inside =
+                point.iter().zip(self.inputs).map(|(x, (_, [low, high]))| x.clamp(*low, *high));
+            [(self.exact)(&inside.collect::<Vec<_>>())]
+        })
     }
 }
 

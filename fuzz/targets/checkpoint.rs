@@ -53,17 +53,17 @@ struct Bench {
 }
 
 static BENCH: LazyLock<Bench> = LazyLock::new(|| {
-    let column = |name: &str| Column { name: name.into(), unit: "1".into(), domain: [0.0, 1.0] };
+    let column = |name| Column::new(name, [0.0, 1.0]);
     let values: Vec<f32> = (0..8).map(|i| i as f32 / 7.0).collect();
     let squares = values.iter().map(|x| x * x).collect();
     let split = Split { columns: vec![values, squares], ..Split::default() };
     let dataset = Dataset {
         name: "square".into(),
-        recipe: String::new(),
         inputs: vec![column("x")],
         outputs: vec![column("y")],
         search: split.clone(),
         validation: split,
+        ..Dataset::default()
     };
     let method = Method { islands: 1, candidates: 8, ..Method::default() };
     let grammar = Grammar::find("polynomial").expect("built in");

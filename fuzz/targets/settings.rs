@@ -15,18 +15,18 @@ static PROGRAM: LazyLock<Program> = LazyLock::new(|| {
 });
 
 static DATASET: LazyLock<Dataset> = LazyLock::new(|| {
-    let column = |name: &str| Column { name: name.into(), unit: "1".into(), domain: [0.0, 1.0] };
+    let column = |name| Column::new(name, [0.0, 1.0]);
     let cell = |i: usize| i as f32 / 4.0;
     let of = |f: fn(usize) -> usize| (0..25).map(|i| cell(f(i))).collect::<Vec<f32>>();
     let columns = vec![of(|i| i / 5), of(|i| i % 5), of(|i| i / 5), of(|i| i % 5)];
     let split = Split { columns, grid: vec![5, 5], ..Split::default() };
     Dataset {
         name: "grid".into(),
-        recipe: String::new(),
         inputs: vec![column("a"), column("b")],
         outputs: vec![column("y"), column("z")],
         search: split.clone(),
         validation: split,
+        ..Dataset::default()
     }
 });
 

@@ -86,7 +86,7 @@ fn of_dataset(args: &Args, path: &Path) -> Result<(Program, Names, Asked), Failu
 
 fn of_domain(args: &Args) -> Result<(Program, Names, Asked), Failure> {
     let (program, names) = settled(parse_open(&args.formula, &[])?)?;
-    let column = |name: &String, domain| Column { name: name.clone(), unit: "1".into(), domain };
+    let column = |name: &String, domain| Column::new(name, domain);
     let mut inputs = Vec::new();
     for name in &names.inputs {
         let given = args.domain.iter().find_map(|text| {

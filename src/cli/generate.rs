@@ -53,14 +53,12 @@ pub fn run(args: &Args, common: &Common) -> Result<(), Failure> {
         seconds: start.elapsed().as_secs_f64(),
         dataset: dataset.name,
         path,
-        recipe: dataset.recipe,
+        recipe: dataset.origin.to_string(),
     };
-    common.summary(&made, &summary(&made))
+    common.summary(&made, &summary(&made, &dataset.origin.notes().join(", ")))
 }
 
-fn summary(made: &Made) -> String {
-    // Generators write the error that they measured behind the recipe.
-    let measured = made.recipe.split_once(" // ").map_or("", |(_, comment)| comment);
+fn summary(made: &Made, measured: &str) -> String {
     format!(
         "{}: {} search and {} validation rows, {measured}, in {:.1} s",
         made.path.display(),

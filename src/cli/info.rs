@@ -66,7 +66,7 @@ pub fn run(args: &Args, common: &Common) -> Result<(), Failure> {
         validation: rows(&dataset.validation),
         incumbents: incumbents.into_iter().map(|known| known.incumbent.name).collect(),
         name: dataset.name,
-        recipe: dataset.recipe,
+        recipe: dataset.origin.to_string(),
     };
     common.result(&info, &page(&info))
 }

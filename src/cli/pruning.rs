@@ -1,4 +1,4 @@
-use crate::dataset::Dataset;
+use crate::dataset::{Dataset, Origin};
 
 /// Fewer rows to search on, for large tables.
 #[derive(clap::Args)]
@@ -10,14 +10,13 @@ pub(super) struct Pruning {
 }
 
 impl Pruning {
-    /// The dataset pruned as asked for, its recipe saying so.
+    /// The dataset pruned as asked for, its origin saying so.
     pub(super) fn applied_to(&self, mut dataset: Dataset) -> Dataset {
         if let Some(share) = self.prune {
             let rows = dataset.search.rows();
             dataset.prune_flat_regions(share, 0);
-            let (kept, recipe) = (dataset.search.rows(), &dataset.recipe);
-            let separator = if recipe.contains(" // ") { ", " } else { " // " };
-            dataset.recipe = format!("{recipe}{separator}pruned at {share}: {kept} of {rows} rows");
+            let (kept, of) = (dataset.search.rows(), Box::new(dataset.origin));
+            dataset.origin = Origin::Pruned { of, share, kept, rows };
         }
         dataset
     }

@@ -1,5 +1,7 @@
 use super::select::unknown_column;
-use super::{Column, Dataset, Error, LARGEST_FILE, Split, check_identifier, domain_of, read_file};
+use super::{
+    Column, Dataset, Error, LARGEST_FILE, Origin, Split, check_identifier, domain_of, read_file,
+};
 use std::collections::HashSet;
 use std::path::Path;
 
@@ -118,7 +120,7 @@ fn imported(path: &Path, mut table: Table, inputs: &InputColumns) -> Result<Data
     };
     let dataset = Dataset {
         name: lossy(path.file_stem()),
-        recipe: format!("imported from {}", lossy(path.file_name())),
+        origin: Origin::Import { file: lossy(path.file_name()) },
         inputs,
         outputs,
         search,

@@ -16,7 +16,7 @@ pub enum Error {
     Empty { path: PathBuf },
     #[error("{path}: not an lgp dataset (it does not begin with LGPDATA1); if it is a table, convert it with `lgp import`", path = path.display())]
     Magic { path: PathBuf },
-    #[error("{path}: dataset format version {found}, but this program reads version {supported}; generate or import it again with this program", path = path.display())]
+    #[error("{path}: dataset format version {found}, but this program reads versions up to {supported}; generate or import it again with this program", path = path.display())]
     Version { path: PathBuf, found: u32, supported: u32 },
     #[error("{path}: truncated: {found} bytes of {expected}; copy, generate or import it again", path = path.display())]
     Truncated { path: PathBuf, expected: u64, found: u64 },

@@ -3,12 +3,13 @@
 //! weights, free and standard errors, then the validation split's), and the 32-byte blake3 checksum
 //! of everything before it.
 
-use super::{Column, Dataset, Error, LARGEST_FILE, Split, read_file, replace_file};
+use super::{Column, Dataset, Error, LARGEST_FILE, Origin, Split, read_file, replace_file};
+use ron::extensions::Extensions;
 use serde::{Deserialize, Serialize};
 use std::path::Path;
 
 const MAGIC: &[u8; 8] = b"LGPDATA1";
-const VERSION: u32 = 1;
+const VERSION: u32 = 2;
 const CHECKSUM: usize = 32;
 const PREFIX: usize = MAGIC.len() + 4;
 
@@ -16,7 +17,11 @@ const PREFIX: usize = MAGIC.len() + 4;
 struct Header {
     version: u32,
     name: String,
-    recipe: String,
+    /// What version 1 has in place of an origin.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    recipe: Option<String>,
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    origin: Option<Origin>,
     inputs: Vec<Column>,
     outputs: Vec<Column>,
     search: SplitHeader,
@@ -88,11 +93,20 @@ impl Dataset {
         })
     }
 
-    /// First 16 hexadecimal digits of the checksum that [`Dataset::save`] ends
-    /// the file with: equal for equal names, recipes, columns and rows.
+    /// 16 hexadecimal digits, equal for equal names, columns and rows, wherever they are from.
     pub fn hash(&self) -> String {
-        let content = self.content(&self.header());
-        blake3::hash(&content).to_hex().as_str()[..16].to_owned()
+        self.hash_with(&self.header(0, None, None))
+    }
+
+    /// Whether a record names this data by its hash; records of earlier versions have that of a file of
+    /// version 1.
+    pub fn has_hash(&self, hash: &str) -> bool {
+        let version_1 = || self.header(1, Some(self.origin.to_string()), None);
+        hash == self.hash() || hash == self.hash_with(&version_1())
+    }
+
+    fn hash_with(&self, header: &str) -> String {
+        blake3::hash(&self.content(header)).to_hex().as_str()[..16].to_owned()
     }
 
     /// The bytes of the `.bin` file; `path` is where they are to go, for the error.
@@ -101,9 +115,9 @@ impl Dataset {
     /// A dataset that [`Dataset::validate`] refuses.
     pub fn to_bytes(&self, path: &Path) -> Result<Vec<u8>, Error> {
         self.validate_as(path)?;
-        let header = self.header();
+        let header = self.header(VERSION, None, Some(self.origin.clone()));
         if u32::try_from(header.len()).is_err() {
-            let problem = "names and recipe are longer than 4 GiB".into();
+            let problem = "names and origin are longer than 4 GiB".into();
             return Err(Error::Header { path: path.into(), problem });
         }
         let mut bytes = self.content(&header);
@@ -112,7 +126,7 @@ impl Dataset {
         Ok(bytes)
     }
 
-    fn header(&self) -> String {
+    fn header(&self, version: u32, recipe: Option<String>, origin: Option<Origin>) -> String {
         let split = |split: &Split| SplitHeader {
             rows: split.rows() as u64,
             weighted: !split.weights.is_empty(),
@@ -121,16 +135,16 @@ impl Dataset {
             grid: split.grid.clone(),
         };
         let header = Header {
-            version: VERSION,
+            version,
             name: self.name.clone(),
-            recipe: self.recipe.clone(),
+            recipe,
+            origin,
             inputs: self.inputs.clone(),
             outputs: self.outputs.clone(),
             search: split(&self.search),
             validation: split(&self.validation),
         };
-        // Strings, integers and floats always have a RON form.
-        ron::to_string(&header).unwrap_or_default()
+        notation().to_string(&header).expect("plain data")
     }
 
     fn content(&self, header: &str) -> Vec<u8> {
@@ -170,15 +184,15 @@ fn parse(path: &Path, bytes: &[u8]) -> Result<Dataset, Error> {
     let (content, checksum) = bytes.split_at(bytes.len() - CHECKSUM);
     let intact = blake3::hash(content).as_bytes() == checksum;
     let body = PREFIX + length as usize;
-    let header = read_header(path, &content[PREFIX..body], intact)?;
+    let (header, origin) = read_header(path, &content[PREFIX..body], intact)?;
     check_length(path, &header, body, found, intact)?;
     if !intact {
         return Err(Error::Checksum { path: path.into() });
     }
-    Ok(assemble(header, &content[body..]))
+    Ok(assemble(header, origin, &content[body..]))
 }
 
-fn read_header(path: &Path, bytes: &[u8], intact: bool) -> Result<Header, Error> {
+fn read_header(path: &Path, bytes: &[u8], intact: bool) -> Result<(Header, Origin), Error> {
     // A header that cannot be read in a damaged file is only a symptom.
     let unusable = |problem: String| match intact {
         true => Error::Header { path: path.into(), problem },
@@ -187,10 +201,23 @@ fn read_header(path: &Path, bytes: &[u8], intact: bool) -> Result<Header, Error>
     let text = std::str::from_utf8(bytes).map_err(|error| unusable(error.to_string()))?;
     let VersionOnly { version } =
         ron::from_str(text).map_err(|error| unusable(error.to_string()))?;
-    if version != VERSION {
+    if !(1..=VERSION).contains(&version) {
         return Err(Error::Version { path: path.into(), found: version, supported: VERSION });
     }
-    ron::from_str(text).map_err(|error| unusable(error.to_string()))
+    let mut header: Header =
+        notation().from_str(text).map_err(|error| unusable(error.to_string()))?;
+    let origin = match version {
+        1 => header.recipe.as_deref().map(Origin::of_text),
+        _ => header.origin.take(),
+    };
+    let origin =
+        origin.ok_or_else(|| unusable("it does not say where the rows come from".into()))?;
+    Ok((header, origin))
+}
+
+/// How headers are written: what is optional as it is, or not at all.
+fn notation() -> ron::Options {
+    ron::Options::default().with_default_extension(Extensions::IMPLICIT_SOME)
 }
 
 fn check_length(
@@ -222,7 +249,7 @@ fn check_length(
 }
 
 /// Cuts the body, whose length has been checked, into columns.
-fn assemble(header: Header, body: &[u8]) -> Dataset {
+fn assemble(header: Header, origin: Origin, body: &[u8]) -> Dataset {
     let columns = header.inputs.len() + header.outputs.len();
     let outputs = header.outputs.len();
     let mut words = body.as_chunks::<4>().0.iter().map(|&word| f32::from_le_bytes(word));
@@ -243,7 +270,7 @@ fn assemble(header: Header, body: &[u8]) -> Dataset {
         search: split(header.search),
         validation: split(header.validation),
         name: header.name,
-        recipe: header.recipe,
+        origin,
         inputs: header.inputs,
         outputs: header.outputs,
     }

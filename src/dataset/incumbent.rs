@@ -88,11 +88,11 @@ fn line_naming(text: &str, name: &str, skipped: usize) -> usize {
 }
 
 /// The file that lists a dataset's incumbents, if there is one:
-/// `incumbents/<target>.ron` beside the dataset's file, after the target in
-/// its recipe, or else after its name.
+/// `incumbents/<target>.ron` beside the dataset's file, after the target that
+/// it is of, or else after its name.
 pub fn incumbents_file(dataset_path: &Path, dataset: &Dataset) -> Option<PathBuf> {
     let folder = dataset_path.parent()?.join("incumbents");
-    let names = [target_of(&dataset.recipe), Some(dataset.name.clone())];
+    let names = [dataset.origin.target(), Some(dataset.name.clone())];
     let files = names.into_iter().flatten().map(|name| folder.join(name + ".ron"));
     files.into_iter().find(|file| file.is_file())
 }
@@ -108,15 +108,4 @@ pub fn incumbents_for(dataset_path: &Path, dataset: &Dataset) -> Result<Vec<Comp
     };
     let incumbents = load_incumbents(&file)?;
     Ok(incumbents.iter().filter_map(|incumbent| incumbent.compared_on(dataset)).collect())
-}
-
-#[derive(Deserialize)]
-struct TargetOnly {
-    target: String,
-}
-
-fn target_of(recipe: &str) -> Option<String> {
-    let TargetOnly { target } = ron::from_str(recipe).ok()?;
-    let is_name = |c: char| c.is_ascii_alphanumeric() || c == '_';
-    target.chars().all(is_name).then_some(target)
 }

@@ -12,6 +12,7 @@ mod format;
 mod incumbent;
 mod kind;
 mod name;
+mod origin;
 mod prune;
 mod sampled;
 mod select;
@@ -23,7 +24,9 @@ pub use file::{StagedFile, TEMPORARY, remove_file, replace_file, witness_file_op
 pub use incumbent::{Comparable, Incumbent, incumbents_file, incumbents_for, load_incumbents};
 pub use kind::{check_replaceable, read_file, read_text};
 pub use name::{LONGEST_NAME, NameFault, check_name, check_text};
-pub use sampled::{Axis, axis};
+pub use origin::Origin;
+pub(crate) use sampled::combinations;
+pub use sampled::{Axis, axis, grid_weights};
 pub use unit::{joint_unit, output_units, unit};
 
 use crate::program::Names;
@@ -41,6 +44,13 @@ pub struct Column {
     pub unit: String,
     /// Smallest and largest value that is meaningful (for an output: that occurs).
     pub domain: [f64; 2],
+}
+
+impl Column {
+    /// A dimensionless column.
+    pub fn new(name: &str, domain: [f64; 2]) -> Column {
+        Column { name: name.to_owned(), unit: "1".to_owned(), domain }
+    }
 }
 
 /// Rows of samples, column-major: inputs first then outputs, each of
@@ -74,11 +84,10 @@ impl Split {
 }
 
 /// Named samples of a function, in two disjoint splits.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct Dataset {
     pub name: String,
-    /// Where the rows come from: a recipe in RON, or `imported from file.csv`.
-    pub recipe: String,
+    pub origin: Origin,
     pub inputs: Vec<Column>,
     pub outputs: Vec<Column>,
     /// What a search is fitted to.

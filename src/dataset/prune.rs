@@ -104,8 +104,7 @@ mod tests {
 
     /// A step with a flat left half, on 32 by 32 points.
     fn ramp() -> Dataset {
-        let column =
-            |name: &str| Column { name: name.into(), unit: "1".into(), domain: [0.0, 1.0] };
+        let column = |name| Column::new(name, [0.0, 1.0]);
         let mut columns = vec![Vec::new(); 3];
         for i in 0..32 {
             for j in 0..32 {
@@ -117,11 +116,11 @@ mod tests {
         let split = Split { columns, grid: vec![32, 32], ..Split::default() };
         Dataset {
             name: "ramp".into(),
-            recipe: String::new(),
             inputs: vec![column("x"), column("y")],
             outputs: vec![column("z")],
             search: split.clone(),
             validation: split,
+            ..Dataset::default()
         }
     }
 

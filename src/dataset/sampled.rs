@@ -1,6 +1,6 @@
 //! Datasets of functions that are at hand.
 
-use super::{Column, Dataset, Error, Split, domain_of};
+use super::{Column, Dataset, Error, Origin, Split, domain_of};
 use std::ops::RangeInclusive;
 
 /// Points along each axis of a search grid: about 4096 in all where there are several inputs.
@@ -59,47 +59,80 @@ impl Dataset {
         function: impl Fn([f64; N]) -> [f64; M],
     ) -> Result<Dataset, Error> {
         let cells = POINTS[N.clamp(1, POINTS.len()) - 1];
-        let grid = |along: &dyn Fn(&Axis) -> Vec<f32>| {
-            let along: Vec<Vec<f32>> = axes.iter().map(along).collect();
-            let rows = along.iter().map(Vec::len).product();
-            let mut split = Split {
-                columns: vec![Vec::with_capacity(rows); N + M],
-                grid: along.iter().map(Vec::len).collect(),
-                ..Split::default()
-            };
-            for row in 0..rows {
-                let mut point = [0.0; N];
-                let mut rest = row;
-                for (x, nodes) in point.iter_mut().zip(&along).rev() {
-                    *x = f64::from(nodes[rest % nodes.len()]);
-                    rest /= nodes.len();
-                }
-                let values = point.into_iter().chain(function(point));
-                split.columns.iter_mut().zip(values).for_each(|(column, x)| column.push(x as f32));
-            }
-            split
+        let grid = |along: fn(&Axis, usize) -> Vec<f32>, points| {
+            let along: Vec<Vec<f32>> = axes.iter().map(|axis| along(axis, points)).collect();
+            Split::on_grid(&along, |point| function(std::array::from_fn(|i| point[i])))
         };
-        let search = grid(&|axis| axis.centres(cells));
-        let validation = grid(&|axis| axis.nodes(cells * 3 / 2 + 1));
+        let splits = [grid(Axis::centres, cells), grid(Axis::nodes, cells * 3 / 2 + 1)];
         let input = |axis: &Axis| Column {
             name: axis.name.clone(),
             unit: axis.unit.clone(),
             domain: [*axis.domain.start(), *axis.domain.end()],
         };
-        let output = |(name, index): (&str, usize)| Column {
+        let origin = Origin::Formula { text: "a function, sampled".to_owned() };
+        let inputs = axes.iter().map(input).collect();
+        Dataset::of_splits(
+            &outputs.join("_"),
+            origin,
+            inputs,
+            outputs.map(|name| (name, "1")),
+            splits,
+        )
+    }
+
+    /// Rows at hand, to search on and to validate on, under inputs and the outputs' names and units: the domain
+    /// of an output is what occurs.
+    ///
+    /// # Errors
+    /// As [`Dataset::validate`].
+    pub fn of_splits<'a>(
+        name: &str,
+        origin: Origin,
+        inputs: Vec<Column>,
+        outputs: impl IntoIterator<Item = (&'a str, &'a str)>,
+        [search, validation]: [Split; 2],
+    ) -> Result<Dataset, Error> {
+        let output = |((name, unit), index): ((&str, &str), usize)| Column {
             name: name.to_owned(),
-            unit: "1".to_owned(),
+            unit: unit.to_owned(),
             domain: domain_of(&search, &validation, index),
         };
-        let dataset = Dataset {
-            name: outputs.join("_"),
-            recipe: "a function, sampled".to_owned(),
-            inputs: axes.iter().map(input).collect(),
-            outputs: outputs.into_iter().zip(N..).map(output).collect(),
-            search,
-            validation,
-        };
+        let outputs = outputs.into_iter().zip(inputs.len()..).map(output).collect();
+        let name = name.to_owned();
+        let dataset = Dataset { name, origin, inputs, outputs, search, validation };
         dataset.validate()?;
         Ok(dataset)
     }
+}
+
+impl Split {
+    /// A function on every combination of places along each input, the last input varying fastest.
+    pub fn on_grid<const M: usize>(
+        along: &[Vec<f32>],
+        function: impl Fn(&[f64]) -> [f64; M],
+    ) -> Split {
+        let mut columns = vec![Vec::new(); along.len() + M];
+        for point in combinations(along) {
+            let exact: Vec<f64> = point.iter().copied().map(f64::from).collect();
+            let row = point.into_iter().chain(function(&exact).map(|value| value as f32));
+            columns.iter_mut().zip(row).for_each(|(column, value)| column.push(value));
+        }
+        Split { columns, grid: along.iter().map(Vec::len).collect(), ..Split::default() }
+    }
+}
+
+/// Every combination of one value an axis, the last axis varying fastest.
+pub(crate) fn combinations(along: &[Vec<f32>]) -> Vec<Vec<f32>> {
+    along.iter().fold(vec![Vec::new()], |points, values| {
+        let longer = |point: &Vec<f32>, value| [point.as_slice(), &[value]].concat();
+        points.iter().flat_map(|point| values.iter().map(move |&v| longer(point, v))).collect()
+    })
+}
+
+/// What the rows of a grid weigh where those along each axis do: products.
+pub fn grid_weights(along: &[Vec<f64>]) -> Vec<f32> {
+    let areas = along.iter().fold(vec![1.0], |areas: Vec<f64>, lengths| {
+        areas.iter().flat_map(|area| lengths.iter().map(move |length| area * length)).collect()
+    });
+    areas.into_iter().map(|area| area as f32).collect()
 }

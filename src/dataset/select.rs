@@ -41,7 +41,7 @@ impl Dataset {
         };
         let selected = Dataset {
             name: self.name.clone(),
-            recipe: self.recipe.clone(),
+            origin: self.origin.clone(),
             inputs: named(inputs),
             outputs: named(outputs),
             search: self.pick(&self.search, &indices, inputs.len(), same_inputs),

@@ -151,7 +151,7 @@ fn facts(run: &Run, dataset: Option<&Dataset>) -> Vec<(String, String)> {
         vec![("dataset".to_owned(), format!("{}, hash {}", run.name, run.dataset_hash))];
     let mut fact = |name: &str, value: String| facts.push((name.to_owned(), value));
     if let Some(dataset) = dataset {
-        fact("made by", dataset.recipe.clone());
+        fact("made by", dataset.origin.to_string());
         let rows = [dataset.search.rows(), dataset.validation.rows()];
         fact("samples", format!("{} to search on, {} to validate", rows[0], rows[1]));
     }

@@ -68,7 +68,7 @@ impl Subject {
     /// The same, of a dataset at a path.
     pub fn of_run_at(run: &Run, path: &Path) -> Result<Subject, SubjectError> {
         let whole = Dataset::load(path)?;
-        if whole.hash() != run.dataset_hash {
+        if !whole.has_hash(&run.dataset_hash) {
             return Err(SubjectError::OtherData { path: path.into() });
         }
         let names = run.names();

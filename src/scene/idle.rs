@@ -157,22 +157,11 @@ fn without(program: &Program, at: usize, value: Value) -> Option<Program> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::dataset::Column;
+    use crate::dataset::axis;
     use crate::program::{Names, parse, print};
 
-    fn line(rows: usize) -> Dataset {
-        let xs: Vec<f32> = (0..rows).map(|i| (i as f32 + 0.5) / rows as f32).collect();
-        let split = Split { columns: vec![xs.clone(), xs], ..Split::default() };
-        let column =
-            |name: &str| Column { name: name.into(), unit: "1".into(), domain: [0.0, 1.0] };
-        Dataset {
-            name: "line".into(),
-            recipe: String::new(),
-            inputs: vec![column("x")],
-            outputs: vec![column("y")],
-            search: split.clone(),
-            validation: split,
-        }
+    fn line() -> Dataset {
+        Dataset::sampled([axis("x", 0.0..=1.0)], ["y"], |x| x).unwrap()
     }
 
     #[test]
@@ -206,7 +195,7 @@ mod tests {
             ("y = sqrt(max(x - 0.0000001, 0))", None),
             ("y = saturate(2*x)", None),
         ] {
-            let found = first_idle(&parse(text, &names).unwrap(), &line(100));
+            let found = first_idle(&parse(text, &names).unwrap(), &line());
             let found = found.map(|idle| (idle.evidence, print(&idle.program, &names)));
             assert_eq!(found, left.map(|(e, t)| (e, t.to_owned())), "{text}");
         }

@@ -15,16 +15,16 @@
 //!     fixed: {"f0": 0.04},
 //!     outputs: {"specular": "f0*scale + bias"},
 //! )"#)?;
-//! # let column = |name: &str| Column { name: name.into(), unit: "1".into(), domain: [0.0, 1.0] };
+//! # let column = |name| Column::new(name, [0.0, 1.0]);
 //! # let columns = vec![vec![0.0, 0.5, 1.0], vec![0.5, 0.75, 1.0], vec![0.5, 0.25, 0.0]];
 //! # let split = Split { columns, ..Split::default() };
 //! # let dataset = Dataset {
 //! #     name: "dfg".into(),
-//! #     recipe: String::new(),
 //! #     inputs: vec![column("roughness")],
 //! #     outputs: vec![column("scale"), column("bias")],
 //! #     search: split.clone(),
 //! #     validation: split,
+//! #     ..Dataset::default()
 //! # };
 //! let view = scene.over(&dataset)?.dataset()?;
 //! assert_eq!(view.outputs[0].name, "specular");

@@ -3,7 +3,7 @@
 use super::histogram::Density;
 use super::quantisation::Steps;
 use super::{Error, Scene, fixed};
-use crate::dataset::{Column, Dataset, Split, domain_of};
+use crate::dataset::{Column, Dataset, Origin, Split};
 use crate::eval::{Arithmetic, Double};
 use crate::program::Program;
 
@@ -45,7 +45,7 @@ impl<'a> View<'a> {
 
     /// What the scene leaves of the dataset: open inputs, combined outputs, and the rows that occur,
     /// each weighing what it did times the histograms' counts. Its name is the dataset's and
-    /// the scene's, its recipe says what the scene did.
+    /// the scene's, its origin says what the scene did.
     ///
     /// # Errors
     /// A split of which no row is left; a combined output that is not finite.
@@ -58,27 +58,17 @@ impl<'a> View<'a> {
             .collect();
         let unit = |name: &str| {
             let same = self.whole.outputs.iter().find(|column| column.name == name);
-            same.map_or_else(|| "1".to_owned(), |column| column.unit.clone())
+            same.map_or("1", |column| &column.unit)
         };
-        let outputs = self.outputs.iter().enumerate().map(|(place, (name, _))| Column {
-            name: name.clone(),
-            unit: unit(name),
-            domain: domain_of(&search, &validation, inputs.len() + place),
-        });
+        let outputs = self.outputs.iter().map(|(name, _)| (name.as_str(), unit(name)));
         let Scene { name, .. } = self.scene;
-        let dataset = Dataset {
-            name: format!("{}_{}", self.whole.name, identifier(name)),
-            recipe: format!("{}\n// scene {name}: {}", self.whole.recipe, self.scene.summary()),
-            outputs: outputs.collect(),
-            inputs,
-            search,
-            validation,
+        let origin = Origin::View {
+            of: Box::new(self.whole.origin.clone()),
+            scene: format!("{name}: {}", self.scene.summary()),
         };
-        dataset.validate().map_err(|error| Error::Dataset {
-            scene: self.scene.name.clone(),
-            error: Box::new(error),
-        })?;
-        Ok(dataset)
+        let called = format!("{}_{}", self.whole.name, identifier(name));
+        Dataset::of_splits(&called, origin, inputs, outputs, [search, validation])
+            .map_err(|error| Error::Dataset { scene: name.clone(), error: Box::new(error) })
     }
 
     fn split(&self, which: &'static str, split: &Split) -> Result<Split, Error> {

@@ -234,25 +234,13 @@ fn fitted(fitter: &mut Fitter, draft: &Draft, problem: &Problem, race: &Samples)
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::dataset::{Column, Dataset, Split};
+    use crate::dataset::{Column, Dataset, axis};
     use crate::grammar::Grammar;
     use crate::program::{Names, Program, parse, print};
     use crate::search::Method;
 
     fn line() -> Dataset {
-        let xs: Vec<f32> = (0..50).map(|i| i as f32 / 49.0).collect();
-        let column =
-            |name: &str| Column { name: name.into(), unit: "1".into(), domain: [0.0, 1.0] };
-        let ys = xs.iter().map(|x| 0.3 - 0.7 * x).collect();
-        let split = Split { columns: vec![xs, ys], ..Split::default() };
-        Dataset {
-            name: "line".into(),
-            recipe: "0.3 - 0.7 x".into(),
-            inputs: vec![column("x")],
-            outputs: vec![column("y")],
-            search: split.clone(),
-            validation: split,
-        }
+        Dataset::sampled([axis("x", 0.0..=1.0)], ["y"], |[x]| [0.3 - 0.7 * x]).unwrap()
     }
 
     #[test]

@@ -299,7 +299,7 @@ mod tests {
     #[test]
     fn what_does_nothing_in_the_domain_is_left_out() {
         let names = Names::new(["x"], ["y"]);
-        let inputs = [Column { name: "x".into(), unit: "1".into(), domain: [0.0, 1.0] }];
+        let inputs = [Column::new("x", [0.0, 1.0])];
         for (text, left) in [
             ("y = abs(x) + saturate(x)", "y = x + x"),
             ("y = abs(x - 0.5)", "y = abs(x - 0.5)"),

@@ -8,7 +8,7 @@
 
 use super::table::{Axis, Spacing};
 use super::{Error, Progress, Recipe, Target, points};
-use crate::dataset::{Column, Dataset, Split, domain_of};
+use crate::dataset::{Column, Dataset, Split, grid_weights};
 use crate::microfacet::{ggx, sampling};
 use std::f64::consts::PI;
 
@@ -47,21 +47,16 @@ pub fn generate(recipe: &Recipe, progress: Progress) -> Result<Dataset, Error> {
     let search = rows(&centres);
     progress(1, 2);
     let mut validation = rows(&nodes);
-    let length = |at: f64| if at == 0.0 || at == 1.0 { 0.5 } else { 1.0 };
-    let areas = nodes.iter().flat_map(|a| nodes.iter().map(|b| (length(*a) * length(*b)) as f32));
-    validation.weights = areas.collect();
+    let lengths = nodes.iter().map(|&at| if at == 0.0 || at == 1.0 { 0.5 } else { 1.0 }).collect();
+    validation.weights = grid_weights(&vec![lengths; 2]);
     progress(2, 2);
-    let unit = |name: &str, domain| Column { name: name.into(), unit: "1".into(), domain };
-    let dataset = Dataset {
-        name: TARGET.name.into(),
-        recipe: format!("{recipe} // estimated error below 1e-13 before rounding to f32"),
-        inputs: vec![unit("n_dot_h", [0.0, 1.0]), unit(ALPHA.name, ALPHA.domain)],
-        outputs: vec![unit("d_over_peak", domain_of(&search, &validation, 2))],
-        search,
-        validation,
-    };
-    dataset.validate()?;
-    Ok(dataset)
+    Ok(Dataset::of_splits(
+        TARGET.name,
+        recipe.origin("estimated error below 1e-13 before rounding to f32"),
+        vec![Column::new("n_dot_h", [0.0, 1.0]), Column::new(ALPHA.name, ALPHA.domain)],
+        [("d_over_peak", "1")],
+        [search, validation],
+    )?)
 }
 
 /// Every pair of a width and a place in its lobe, both given in [0, 1].

@@ -1,6 +1,6 @@
 use super::sampling::{SAMPLING, SAMPLING_SEED};
 use super::{Choices, Error, Parameter, Target, targets};
-use crate::dataset::{LARGEST_TEXT, read_text};
+use crate::dataset::{LARGEST_TEXT, Origin, read_text};
 use ron::value::{Map, Value};
 use std::fmt;
 use std::path::Path;
@@ -91,6 +91,11 @@ impl Recipe {
     pub fn get(&self, parameter: &str) -> Option<&str> {
         let index = self.target.parameters.iter().position(|known| known.name == parameter)?;
         self.values.get(index).map(String::as_str)
+    }
+
+    /// Where rows come from that are made by it, with the error measured.
+    pub(super) fn origin(&self, error: impl Into<String>) -> Origin {
+        Origin::Target { recipe: self.to_string(), error: error.into() }
     }
 
     /// The value of a parameter that is a [`Choices::Count`]; 0 of any other.

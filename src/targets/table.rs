@@ -2,7 +2,7 @@
 
 use super::sampling::{SAMPLING_SEED, Samples, Sampling, adaptive, jittered, low_discrepancy};
 use super::{Error, Progress, Recipe};
-use crate::dataset::{Column, Dataset, Split, domain_of};
+use crate::dataset::{Column, Dataset, Split, combinations, grid_weights};
 use rayon::prelude::*;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
@@ -155,26 +155,15 @@ impl Table<'_> {
             unit: axis.unit.into(),
             domain: axis.domain,
         });
-        let outputs = self.outputs.iter().zip(self.axes.len()..);
-        let outputs = outputs.map(|(&(name, unit), index)| Column {
-            name: name.into(),
-            unit: unit.into(),
-            domain: domain_of(&search, &validation, index),
-        });
-        let dataset = Dataset {
-            name: self.recipe.target().name.into(),
-            recipe: format!(
-                "{} // estimated error below {:.0e} before rounding to f32",
-                self.recipe,
-                power_of_ten_above(search_error.max(validation_error))
-            ),
-            inputs: inputs.collect(),
-            outputs: outputs.collect(),
-            search,
-            validation,
-        };
-        dataset.validate()?;
-        Ok(dataset)
+        let error = power_of_ten_above(search_error.max(validation_error));
+        let origin = format!("estimated error below {error:.0e} before rounding to f32");
+        Ok(Dataset::of_splits(
+            self.recipe.target().name,
+            self.recipe.origin(origin),
+            inputs.collect(),
+            self.outputs.iter().copied(),
+            [search, validation],
+        )?)
     }
 
     fn sampling_seed(&self) -> u64 {
@@ -188,8 +177,7 @@ impl Table<'_> {
         sample: &(impl Fn(&[f64]) -> Sample<N> + Sync),
         tick: &Tick,
     ) -> Result<(Split, f64), Error> {
-        let (mut split, error) =
-            self.split(&points_of_grid(along), along[0].len(), sample, tick)?;
+        let (mut split, error) = self.split(&combinations(along), along[0].len(), sample, tick)?;
         split.grid = along.iter().map(Vec::len).collect();
         Ok((split, error))
     }
@@ -243,10 +231,7 @@ impl Table<'_> {
 
     fn area_weights(&self, along: &[Vec<f32>]) -> Vec<f32> {
         let lengths = self.axes.iter().zip(along).map(|(axis, nodes)| axis.lengths(nodes));
-        let areas = lengths.fold(vec![1.0], |areas: Vec<f64>, lengths| {
-            areas.iter().flat_map(|area| lengths.iter().map(move |length| area * length)).collect()
-        });
-        areas.into_iter().map(|area| area as f32).collect()
+        grid_weights(&lengths.collect::<Vec<_>>())
     }
 
     fn check_accuracy(&self, point: &[f32], error: f64) -> Result<(), Error> {
@@ -262,18 +247,6 @@ impl Table<'_> {
             allowed: self.allowed_error,
         })
     }
-}
-
-/// Every combination of one value an axis, the last axis varying fastest.
-fn points_of_grid(along: &[Vec<f32>]) -> Vec<Vec<f32>> {
-    along.iter().fold(vec![Vec::new()], |points, values| {
-        let longer = |point: &Vec<f32>, &value: &f32| {
-            let mut longer = point.clone();
-            longer.push(value);
-            longer
-        };
-        points.iter().flat_map(|point| values.iter().map(move |v| longer(point, v))).collect()
-    })
 }
 
 struct Tick<'a> {

@@ -1,12 +1,11 @@
 //! The `.bin` file.
 
 use crate::sample;
-use lgp::dataset::{Column, Dataset, Error, Split, check_name, check_text};
+use lgp::dataset::{Column, Dataset, Error, Origin, Split, check_name, check_text};
 use proptest::prelude::*;
 use std::path::{Path, PathBuf};
 
 const MAGIC_AND_LENGTH: usize = 12;
-const CHECKSUM: usize = 32;
 
 fn saved() -> (tempfile::TempDir, PathBuf, Vec<u8>) {
     let folder = tempfile::tempdir().unwrap();
@@ -37,8 +36,12 @@ fn sealed(header: &str, body: &[f32]) -> Vec<u8> {
 }
 
 fn header(version: u32, search_rows: u64) -> String {
+    header_of(version, "", search_rows)
+}
+
+fn header_of(version: u32, recipe: &str, search_rows: u64) -> String {
     format!(
-        "(version:{version},name:\"d\",recipe:\"\",\
+        "(version:{version},name:\"d\",recipe:{recipe:?},\
          inputs:[(name:\"x\",unit:\"\",domain:(0.0,1.0))],\
          outputs:[(name:\"y\",unit:\"\",domain:(0.0,1.0))],\
          search:(rows:{search_rows},weighted:false,grid:[]),\
@@ -48,12 +51,10 @@ fn header(version: u32, search_rows: u64) -> String {
 
 #[test]
 fn saves_and_loads() {
-    let (_folder, path, bytes) = saved();
+    let (_folder, path, _) = saved();
     let loaded = Dataset::load(&path).unwrap();
     assert_eq!(loaded, sample());
     assert_eq!(loaded.hash(), sample().hash());
-    let checksum = blake3::Hash::from_slice(&bytes[bytes.len() - CHECKSUM..]).unwrap();
-    assert_eq!(loaded.hash(), checksum.to_hex()[..16]);
 }
 
 #[test]
@@ -69,8 +70,10 @@ fn saving_leaves_nothing_but_the_file_and_replaces_an_old_one() {
 }
 
 #[test]
-fn hash_depends_on_every_part() {
+fn hash_depends_on_all_that_makes_the_data_and_on_nothing_else() {
     let original = sample().hash();
+    let elsewhere = Dataset { origin: Origin::Import { file: "table.csv".into() }, ..sample() };
+    assert_eq!(elsewhere.hash(), original);
     let mut value = sample();
     value.search.columns[3][3] = 0.81;
     let mut weight = sample();
@@ -80,6 +83,46 @@ fn hash_depends_on_every_part() {
     for changed in [value, weight, name] {
         assert_ne!(changed.hash(), original);
     }
+}
+
+/// `version_1.bin` is what the program made of a table of 16 rows when files had version 1.
+#[test]
+fn a_file_of_version_1_is_read_and_known_by_its_hash() {
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/dataset/version_1.bin");
+    let old = Dataset::load(&path).unwrap();
+    let of = Box::new(Origin::Import { file: "table.csv".into() });
+    assert_eq!(old.origin, Origin::Pruned { of, share: 0.01, kept: 8, rows: 13 });
+    assert_eq!(old.origin.to_string(), "imported from table.csv // pruned at 0.01: 8 of 13 rows");
+    assert_eq!((old.search.rows(), old.search.standard_errors.len()), (8, 1));
+    assert!(old.has_hash("25194134bcec0277") && old.has_hash(&old.hash()));
+    assert!(!old.has_hash("0123456789abcdef") && old.hash() != "25194134bcec0277");
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("new.bin");
+    old.save(&path).unwrap();
+    assert_eq!(Dataset::load(&path).unwrap(), old);
+}
+
+#[test]
+fn the_text_of_version_1_becomes_an_origin_that_says_the_same() {
+    let target = "(target: \"dfg\", points: 64) // estimated error below 1e-8";
+    let pruned = format!("{target}, pruned at 0.1: 7 of 64 rows");
+    let scene = format!("{pruned}\n// scene mobile: roughness in [0, 1]");
+    for (text, is_of_dfg) in [
+        (target, true),
+        (&pruned, true),
+        (&scene, true),
+        ("imported from a // b.csv", false),
+        ("imported from a.csv // pruned at 1e-1: 7 of 64 rows", false),
+        ("made by hand // pruned at noon", false),
+        ("a\n// scene b\n// scene c", false),
+        ("", false),
+    ] {
+        let bytes = sealed(&header_of(1, text, 1), &[0.0; 4]);
+        let origin = Dataset::parse(Path::new("d.bin"), &bytes).unwrap().origin;
+        assert_eq!(origin.to_string(), text);
+        assert_eq!(origin.target().is_some(), is_of_dfg, "{text}");
+    }
+    assert!(matches!(load_bytes(&sealed(&header(2, 1), &[0.0; 4])), Error::Header { .. }));
 }
 
 #[test]
@@ -94,8 +137,8 @@ fn refuses_what_is_no_dataset() {
 
 #[test]
 fn refuses_another_version() {
-    let error = load_bytes(&sealed(&header(2, 1), &[0.0; 4]));
-    assert!(matches!(error, Error::Version { found: 2, supported: 1, .. }), "{error}");
+    let error = load_bytes(&sealed(&header(3, 1), &[0.0; 4]));
+    assert!(matches!(error, Error::Version { found: 3, supported: 2, .. }), "{error}");
     let newer = "(version:7,something:(new:[1,2]))";
     assert!(matches!(load_bytes(&sealed(newer, &[])), Error::Version { found: 7, .. }));
 }
@@ -185,7 +228,7 @@ fn datasets() -> impl Strategy<Value = Dataset> {
                 };
                 Dataset {
                     name: name.clone(),
-                    recipe: format!("({name:?})"),
+                    origin: Origin::Formula { text: format!("({name:?})") },
                     inputs: (0..inputs).map(described).collect(),
                     outputs: (inputs..columns).map(described).collect(),
                     search,

@@ -24,7 +24,7 @@ fn imports_a_small_table_into_both_splits() {
     let text = "\u{feff} x , \"y\",half\r\n\r\n 1, -2.5e-1,\"3\"\r\n   \n2,0,.5\n\n";
     let dataset = import_text(text, &InputColumns::Count(2)).unwrap();
     assert_eq!(dataset.name, "table");
-    assert_eq!(dataset.recipe, "imported from table.csv");
+    assert_eq!(dataset.origin.to_string(), "imported from table.csv");
     assert_eq!(names(&dataset.inputs), ["x", "y"]);
     assert_eq!(names(&dataset.outputs), ["half"]);
     assert_eq!(dataset.search.columns, [[1.0, 2.0], [-0.25, 0.0], [3.0, 0.5]]);

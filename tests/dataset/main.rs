@@ -5,16 +5,16 @@ mod binary;
 mod content;
 mod csv;
 
-use lgp::dataset::{Column, Dataset, Split};
+use lgp::dataset::{Column, Dataset, Origin, Split};
 
 pub fn column(name: &str) -> Column {
-    Column { name: name.into(), unit: "1".into(), domain: [0.0, 1.0] }
+    Column::new(name, [0.0, 1.0])
 }
 
 pub fn sample() -> Dataset {
     Dataset {
         name: "sample".into(),
-        recipe: "(target: \"none\")".into(),
+        origin: Origin::Target { recipe: "(target: \"none\")".into(), error: "none".into() },
         inputs: vec![column("n_dot_v"), column("roughness")],
         outputs: vec![column("scale"), column("bias")],
         search: Split {

@@ -15,14 +15,14 @@ fn committed_datasets_are_generated_again() {
         let recipe = Recipe::load(&committed(&format!("{name}.ron"))).unwrap();
         let made = Dataset::load(&committed(&format!("{name}.bin"))).unwrap();
         assert_eq!(made.name, name);
-        assert_eq!(Recipe::parse(&made.recipe).unwrap(), recipe, "{name}");
+        assert_eq!(Recipe::parse(&made.origin.source()).unwrap(), recipe, "{name}");
         let done = AtomicUsize::new(0);
         let again = generate(&recipe, &|_, total| {
             assert!(done.fetch_add(1, Ordering::Relaxed) < total);
         });
         let again = again.unwrap();
         assert_eq!(done.into_inner(), made.search.grid[0] + made.validation.grid[0]);
-        assert_eq!((&again.inputs, &again.recipe), (&made.inputs, &made.recipe), "{name}");
+        assert_eq!((&again.inputs, &again.origin), (&made.inputs, &made.origin), "{name}");
         for (again, made) in [(&again.search, &made.search), (&again.validation, &made.validation)]
         {
             assert_eq!((&again.grid, &again.weights), (&made.grid, &made.weights), "{name}");

@@ -84,7 +84,7 @@ fn committed_datasets_are_what_their_recipes_define() {
         let recipe = Recipe::load(&committed(&format!("{name}.ron"))).unwrap();
         let made = Dataset::load(&committed(&format!("{name}.bin"))).unwrap();
         assert_eq!(made.name, name);
-        assert_eq!(Recipe::parse(&made.recipe).unwrap(), recipe, "{name}");
+        assert_eq!(Recipe::parse(&made.origin.source()).unwrap(), recipe, "{name}");
         for split in [&made.search, &made.validation] {
             for row in (0..split.rows()).step_by(17) {
                 let [n_dot_v, roughness] = [0, 1].map(|input| f64::from(split.columns[input][row]));

@@ -25,7 +25,7 @@ fn error(split: &Split) -> f64 {
 fn every_sampling_measures_the_same_error() {
     let regular = zonal_harmonics("regular", "0");
     assert_eq!(regular.search.grid, [24, 24]);
-    assert!(!regular.recipe.contains("sampling"), "{}", regular.recipe);
+    assert!(!regular.origin.source().contains("sampling"), "{}", regular.origin);
     for sampling in ["jittered", "low_discrepancy", "adaptive"] {
         let made = zonal_harmonics(sampling, "3");
         assert_eq!(made.search.rows(), 576, "{sampling}");

@@ -155,8 +155,7 @@ mod tests {
     use crate::program::parse;
 
     fn columns(names: &[&str]) -> Vec<Column> {
-        let column =
-            |name: &&str| Column { name: (*name).into(), unit: "1".into(), domain: [0.0, 1.0] };
+        let column = |name: &&str| Column::new(name, [0.0, 1.0]);
         names.iter().map(column).collect()
     }
 

@@ -101,15 +101,14 @@ mod tests {
             }
         }
         let split = Split { columns, grid: vec![4, 5], ..Split::default() };
-        let column =
-            |name: &str| Column { name: name.into(), unit: "1".into(), domain: [0.0, 4.0] };
+        let column = |name| Column::new(name, [0.0, 4.0]);
         let dataset = Dataset {
             name: "f".into(),
-            recipe: String::new(),
             inputs: vec![column("x"), column("y")],
             outputs: vec![column("z")],
             search: Split::default(),
             validation: split,
+            ..Dataset::default()
         };
         let table = SphereTable::of(&dataset).unwrap();
         let at = [(0.25, 0.0), (0.5, 3.5), (1.5, 0.25), (3.0, 4.0), (2.75, 1.0)];

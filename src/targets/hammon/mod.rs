@@ -16,7 +16,7 @@ pub mod microsurface;
 pub use microsurface::{Microsurface, Sampler};
 
 use super::{Choices, Error, Parameter, Progress, Recipe, Target};
-use crate::dataset::{Column, Dataset, domain_of};
+use crate::dataset::{Column, Dataset};
 use crate::quadrature::Estimate;
 use glam::DVec3;
 use grid::Grid;
@@ -192,10 +192,8 @@ pub fn generate(recipe: &Recipe, progress: Progress) -> Result<Dataset, Error> {
     let noise =
         [relative_noise(&search, |lobe| lobe.single), relative_noise(&search, |lobe| lobe.multi)];
     let as_columns = recipe.get("standard_errors") == Some(AS_COLUMNS);
-    let [search, validation] = [(&searched, search), (&validated, validation)]
+    let splits = [(&searched, search), (&validated, validation)]
         .map(|(grid, lobes)| grid.split(&lobes, as_columns));
-    let column =
-        |name: &str, unit: &str, domain| Column { name: name.into(), unit: unit.into(), domain };
     let inputs = [
         ("alpha", [0.0, 1.0]),
         ("n_dot_l", [0.0, 1.0]),
@@ -207,23 +205,16 @@ pub fn generate(recipe: &Recipe, progress: Progress) -> Result<Dataset, Error> {
         true => &["single", "multi", "single_se", "multi_se"],
         false => &["single", "multi"],
     };
-    let range = |index| domain_of(&search, &validation, index);
-    let dataset = Dataset {
-        name: TARGET.name.into(),
-        recipe: format!(
-            "{recipe} // median relative standard error {:.1e} of single, {:.1e} of multi",
-            noise[0], noise[1]
-        ),
-        inputs: inputs.map(|(name, domain)| column(name, "1", domain)).to_vec(),
-        outputs: (inputs.len()..)
-            .zip(outputs)
-            .map(|(i, name)| column(name, "1/sr", range(i)))
-            .collect(),
-        search,
-        validation,
-    };
-    dataset.validate()?;
-    Ok(dataset)
+    let [single, multi] = noise;
+    Ok(Dataset::of_splits(
+        TARGET.name,
+        recipe.origin(format!(
+            "median relative standard error {single:.1e} of single, {multi:.1e} of multi"
+        )),
+        inputs.map(|(name, domain)| Column::new(name, domain)).to_vec(),
+        outputs.iter().map(|&name| (name, "1/sr")),
+        splits,
+    )?)
 }
 
 fn relative_noise(lobes: &[Lobe], of: impl Fn(&Lobe) -> Estimate) -> f64 {

@@ -1,0 +1,113 @@
+//! Where a dataset's rows come from.
+
+use serde::{Deserialize, Serialize};
+use std::fmt;
+
+/// Where a dataset's rows come from, and what was done to them since. As text it is what
+/// `lgp info` shows.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub enum Origin {
+    /// A target's generator: its recipe in RON, and the error that it measured.
+    Target { recipe: String, error: String },
+    /// A table.
+    Import { file: String },
+    /// A function, by its formula or in words.
+    Formula { text: String },
+    /// What a scene left of other rows.
+    View { of: Box<Origin>, scene: String },
+    /// The `kept` of so many rows that pruning flat regions left.
+    Pruned { of: Box<Origin>, share: f64, kept: usize, rows: usize },
+}
+
+impl Default for Origin {
+    fn default() -> Origin {
+        Origin::Formula { text: String::new() }
+    }
+}
+
+impl Origin {
+    /// The name of the target that the rows are of, in the end.
+    pub fn target(&self) -> Option<String> {
+        #[derive(Deserialize)]
+        struct TargetOnly {
+            target: String,
+        }
+        match self {
+            Origin::Target { recipe, .. } => {
+                let TargetOnly { target } = ron::from_str(recipe).ok()?;
+                let is_name = |c: char| c.is_ascii_alphanumeric() || c == '_';
+                target.chars().all(is_name).then_some(target)
+            }
+            Origin::View { of, .. } | Origin::Pruned { of, .. } => of.target(),
+            Origin::Import { .. } | Origin::Formula { .. } => None,
+        }
+    }
+
+    /// What a generator measured, and what pruning left.
+    pub fn notes(&self) -> Vec<String> {
+        match self {
+            Origin::Target { error, .. } => vec![error.clone()],
+            Origin::Pruned { of, share, kept, rows } => {
+                let pruned = format!("pruned at {share}: {kept} of {rows} rows");
+                [of.notes(), vec![pruned]].concat()
+            }
+            Origin::Import { .. } | Origin::Formula { .. } | Origin::View { .. } => Vec::new(),
+        }
+    }
+
+    /// The same without [`Origin::notes`]: of a target its recipe.
+    pub fn source(&self) -> String {
+        match self {
+            Origin::Target { recipe, .. } => recipe.clone(),
+            Origin::Import { file } => format!("{IMPORTED}{file}"),
+            Origin::Formula { text } => text.clone(),
+            Origin::View { of, scene } => format!("{of}{SCENE}{scene}"),
+            Origin::Pruned { of, .. } => of.source(),
+        }
+    }
+
+    /// What a file of version 1 says in one text.
+    pub(super) fn of_text(text: &str) -> Origin {
+        let origin = Origin::taken_apart(text);
+        let kept = origin.as_ref().is_some_and(|origin| origin.to_string() == text);
+        origin.filter(|_| kept).unwrap_or_else(|| Origin::Formula { text: text.to_owned() })
+    }
+
+    fn taken_apart(text: &str) -> Option<Origin> {
+        if let Some((of, scene)) = text.split_once(SCENE) {
+            let of = Box::new(Origin::of_text(of));
+            return Some(Origin::View { of, scene: scene.to_owned() });
+        }
+        if let Some((of, pruned)) = text.split_once("pruned at ") {
+            let of = of.strip_suffix(", ").or(of.strip_suffix(NOTE))?;
+            let (share, rows) = pruned.strip_suffix(" rows")?.split_once(": ")?;
+            let (kept, rows) = rows.split_once(" of ")?;
+            return Some(Origin::Pruned {
+                of: Box::new(Origin::of_text(of)),
+                share: share.parse().ok()?,
+                kept: kept.parse().ok()?,
+                rows: rows.parse().ok()?,
+            });
+        }
+        if let Some(file) = text.strip_prefix(IMPORTED) {
+            return Some(Origin::Import { file: file.to_owned() });
+        }
+        let (recipe, error) = text.split_once(NOTE)?;
+        let target = Origin::Target { recipe: recipe.to_owned(), error: error.to_owned() };
+        target.target().map(|_| target)
+    }
+}
+
+const IMPORTED: &str = "imported from ";
+const NOTE: &str = " // ";
+const SCENE: &str = "\n// scene ";
+
+impl fmt::Display for Origin {
+    fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
+        f.write_str(&self.source())?;
+        match self.notes().join(", ") {
+            notes if notes.is_empty() => Ok(()),
+            notes => write!(f, "{NOTE}{notes}"),
+        }
+    }
+}
