@@ -14,7 +14,7 @@ const BLENDER: &str = "f = exp2(-8.35*n_dot_v)*(1 - roughness); scale = 1 - f; b
 
 #[test]
 fn what_holds_is_proved() {
-    let asked = ["--range", "0..1", "--energy"];
+    let asked = ["--range", "0..1", "--claim", "energy"];
     let (code, shown, errors) = check(&[&[BLENDER, "datasets/dfg.bin"], &asked[..]].concat());
     assert_eq!(code, 0, "{errors}");
     for line in ["scale finite", "bias ≥ 0", "f0*scale + bias ≤ 1"] {
@@ -65,6 +65,7 @@ fn a_front_is_checked_member_by_member() {
     let line = shown.lines().find(|line| line.starts_with("finite  f32")).unwrap();
     let numbers: Vec<&str> = line.split_whitespace().skip(2).collect();
     assert_eq!(numbers[1..], ["0", "0"], "{line}");
+    assert!(shown.lines().any(|line| line.starts_with("energy  GPUs")), "{shown}");
     assert_eq!(check(&["tests/fixtures/dfg", "--range", "0..1"]).0, 4);
     assert!(check(&["tests/fixtures/dfg", "--pick", "1"]).1.contains("scale finite"));
 }
@@ -79,7 +80,13 @@ fn what_cannot_be_understood_is_refused_with_advice() {
         (&["y = x", "--domain", "x=1..0"], 2, "LOW..HIGH"),
         (&["y = x", "--domain", "x=0..1,w=0..1"], 2, "no input `w`"),
         (&["y = x", "--domain", "x=0..1", "--range", "z=0..1"], 2, "no output `z`"),
-        (&["y = x", "--domain", "x=0..1", "--energy"], 2, "scale"),
+        (&["y = x", "--domain", "x=0..1", "--claim", "energy"], 2, "as in \"energy: y <= 1\""),
+        (
+            &["y = x", "--domain", "x=0..1", "--claim", "top: y*w <= 1"],
+            2,
+            "line 1, column 8: unknown name `w`",
+        ),
+        (&[BLENDER, "datasets/dfg.bin", "--claim", "energie"], 2, "did you mean `energy`?"),
         (&["nowhere"], 3, "no such folder"),
         (&["tests/fixtures/dfg", "--pick", "999"], 2, "--pick 999"),
         (&["bias = $a*n_dot_v", "datasets/dfg.bin"], 3, "$a"),
@@ -167,4 +174,49 @@ fn a_sum_of_thirty_inputs_is_checked() {
     let (code, shown, errors) = check(&[&formula, "--domain", &domain.join(",")]);
     assert_eq!(code, 0, "{errors}");
     assert!(shown.lines().any(|line| line.starts_with("y finite  proved    proved")), "{shown}");
+}
+
+#[test]
+fn what_is_claimed_on_the_command_line_is_proved_or_refuted_by_its_name() {
+    let of = ["y = x*x", "--domain", "x=0..1"];
+    let claims = ["--claim", "top: y <= 1", "--claim", "line: y <= k*x for k in 0.5..1"];
+    let (code, shown, errors) = check(&[&of[..], &claims].concat());
+    assert_eq!(code, 4);
+    assert!(errors.contains("y - (k*x) ≤ 0 refuted: 0.5 at k = 0.5, x = 1.0"), "{errors}");
+    let line = |start: &str| shown.lines().find(|line| line.starts_with(start)).unwrap();
+    assert_eq!(line("y ≤ 1").matches("proved").count(), 2, "{shown}");
+    assert_eq!(line("y - (k*x) ≤ 0 (k = 1)").matches("proved").count(), 2, "{shown}");
+    let (code, shown, _) = check(&[&of[..], &claims[..2], &["--json"]].concat());
+    let all: Value = serde_json::from_str(&shown).unwrap();
+    assert_eq!((code, all["verdict"]["top"]["status"].as_str()), (0, Some("proved")));
+    // In place of what comes with the data.
+    let dfg = ["scale = 0.6; bias = 0.6", "datasets/dfg.bin", "--claim"];
+    assert_eq!(check(&[&dfg[..], &["energy"]].concat()).0, 4);
+    assert_eq!(check(&[&dfg[..], &["energy: scale + bias <= 1.25"]].concat()).0, 0);
+}
+
+#[test]
+fn what_is_claimed_of_a_table_stands_in_all_that_is_made_of_it() {
+    let folder = tempfile::tempdir().unwrap();
+    let lgp = |args: &[&str]| {
+        let mut command = Command::cargo_bin("lgp").unwrap();
+        let output = command.current_dir(folder.path()).args(args).output().unwrap();
+        let text = |bytes: &[u8]| String::from_utf8_lossy(bytes).into_owned();
+        assert!(output.status.success(), "{args:?}: {}", text(&output.stderr));
+        text(&output.stdout)
+    };
+    let rows = (0..20).map(|i| format!("{0},{0}\n", f64::from(i) / 19.0));
+    let table = folder.path().join("table.csv");
+    std::fs::write(&table, format!("x,y\n{}", rows.collect::<String>())).unwrap();
+    let claim = ["--claim", "top: y <= 1.5"];
+    lgp(&[&["import", "table.csv", "--inputs", "x", "-o", "table.bin"][..], &claim].concat());
+    assert!(lgp(&["info", "table.bin"]).contains("claims      top: y <= 1.5"));
+    lgp(&["search", "table.bin", "--generations", "1", "--islands", "1", "--out", "run"]);
+    let front: Value = serde_json::from_str(&lgp(&["front", "run", "--json"])).unwrap();
+    let verdicts: Vec<&Value> =
+        front.as_array().unwrap().iter().map(|one| &one["verdict"]["top"]["status"]).collect();
+    assert!(!verdicts.is_empty() && verdicts.iter().all(|status| *status == "proved"));
+    assert!(lgp(&["emit", "run", "--lang", "hlsl"]).contains("// top: proved"));
+    let page = std::fs::read_to_string(folder.path().join("run/report.html")).unwrap();
+    assert!(page.contains("<dt>claims</dt><dd>top: y &lt;= 1.5</dd>"));
 }

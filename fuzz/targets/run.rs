@@ -6,7 +6,6 @@ use lgp::emit::{Language, Snippet, emit};
 use lgp::fit::Measure;
 use lgp::run::Run;
 use lgp::search::Front;
-use lgp::stability::Questions;
 use libfuzzer_sys::fuzz_target;
 use std::path::Path;
 
@@ -27,7 +26,7 @@ fuzz_target!(|content: &[u8]| {
     let again = Front::parse(path, &written, &run, Measure::Rmse);
     assert_eq!(again.expect("what was written can be read").to_json(&names), written);
     let _ = front.knee();
-    let questions = Questions::of(&run.inputs, &run.outputs);
+    let questions = run.questions();
     for member in &front.members {
         assert_eq!(member.program.inputs, questions.domain.len());
         let inputs: Vec<f32> = questions.domain.iter().map(|side| side.low()).collect();

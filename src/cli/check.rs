@@ -2,9 +2,9 @@ use super::eval::{assigned_outputs, settled};
 use super::run_folder::{self, Which};
 use super::{Common, Failure};
 use crate::dataset::{Column, Dataset};
-use crate::program::{Names, Program, parse_open, shortest};
+use crate::program::{ALWAYS_ASKED, Claim, Names, Program, parse_open, shortest};
 use crate::search::FrontMember;
-use crate::stability::{Examination, Questions, Status, Topic, Verdict, VerdictRecord};
+use crate::stability::{ClaimRecord, Examination, Questions, Verdict, VerdictRecord};
 use crate::suggest::did_you_mean;
 use crate::wording::claim_text;
 use crate::wording::cycles_text;
@@ -20,7 +20,7 @@ use std::path::{Path, PathBuf};
 /// computes and for any GPU within WGSL's and Vulkan's stated precision. Of one formula it also shows
 /// what happens at the edges and just outside, what f32 and f16 lose, where, and in which operation,
 /// what compilers may change, and where it bends or jumps. Exit code 4 where a claim is refuted that
-/// was asked for: finite always, ranges with --range, energy with --energy.
+/// was asked for: finite always, ranges with --range, a claim with --claim.
 #[derive(clap::Args)]
 pub struct Args {
     /// Statements `name = expression`, separated by `;`, or a folder that `lgp search` wrote
@@ -35,9 +35,10 @@ pub struct Args {
     /// above where the data is so]
     #[arg(long, value_name = "LOW..HIGH", value_delimiter = ',')]
     range: Vec<String>,
-    /// That f0*scale + bias is at most 1 for all f0 in [0, 1] [default: where outputs are called so]
-    #[arg(long)]
-    energy: bool,
+    /// A claim, as "energy: f0*scale + bias <= 1 for f0 in 0..1", or the name of one that comes with the data;
+    /// can be given several times
+    #[arg(long, value_name = "CLAIM|NAME")]
+    claim: Vec<String>,
     /// By how much a value may leave its range
     #[arg(long, value_name = "S", default_value_t = 1e-5)]
     slack: f64,
@@ -80,7 +81,7 @@ fn of_dataset(args: &Args, path: &Path) -> Result<(Program, Names, Asked), Failu
     let dataset = Dataset::load(path)?;
     let (program, names) = settled(assigned_outputs(&args.formula, &dataset.names())?)?;
     let dataset = dataset.select(Some(&names.inputs), Some(&names.outputs))?;
-    let questions = questions(args, &dataset.inputs, &dataset.outputs)?;
+    let questions = questions(args, &dataset.inputs, &dataset.outputs, &dataset.claims)?;
     Ok((program, names, Asked { inputs: dataset.inputs, questions }))
 }
 
@@ -115,13 +116,19 @@ fn of_domain(args: &Args) -> Result<(Program, Names, Asked), Failure> {
     }
     let anything = [f64::NEG_INFINITY, f64::INFINITY];
     let outputs: Vec<Column> = names.outputs.iter().map(|name| column(name, anything)).collect();
-    let questions = questions(args, &inputs, &outputs)?;
+    let questions = questions(args, &inputs, &outputs, &[])?;
     Ok((program, names, Asked { inputs, questions }))
 }
 
 /// What the columns suggest, and what the command line says.
-fn questions(args: &Args, inputs: &[Column], outputs: &[Column]) -> Result<Questions, Failure> {
-    let mut questions = Questions { slack: args.slack, ..Questions::of(inputs, outputs) };
+fn questions(
+    args: &Args,
+    inputs: &[Column],
+    outputs: &[Column],
+    claims: &[String],
+) -> Result<Questions, Failure> {
+    let claims = claimed(args, inputs, outputs, claims)?;
+    let mut questions = Questions { slack: args.slack, ..Questions::of(inputs, outputs, &claims) };
     for text in &args.range {
         let (name, bounds) = match text.split_once('=') {
             Some((name, bounds)) => (Some(name), range(bounds)?),
@@ -140,10 +147,33 @@ fn questions(args: &Args, inputs: &[Column], outputs: &[Column]) -> Result<Quest
             }
         }
     }
-    if args.energy && questions.energy.is_none() {
-        return Err(Failure::usage("--energy is for formulas with the outputs `scale` and `bias`"));
-    }
     Ok(questions)
+}
+
+/// The claims that come with the data, and those of the command line.
+fn claimed(
+    args: &Args,
+    inputs: &[Column],
+    outputs: &[Column],
+    known: &[String],
+) -> Result<Vec<String>, Failure> {
+    let names = |columns: &[Column]| columns.iter().map(|c| c.name.clone()).collect::<Vec<_>>();
+    let names = Names::new(names(inputs), names(outputs));
+    let mut claims = known.to_vec();
+    for text in &args.claim {
+        if text.contains(':') {
+            Claim::add(&mut claims, text, &names)
+                .map_err(|error| Failure::usage(format!("--claim: {error}")))?;
+        } else if !claims.iter().any(|claim| Claim::name_of(claim) == text) {
+            let hint = did_you_mean(text, claims.iter().map(|claim| Claim::name_of(claim)));
+            let message = format!(
+                "--claim {text}: the data comes with no such claim{hint}; write it out, as in \"{text}: {} <= 1\"",
+                names.outputs[0]
+            );
+            return Err(Failure::usage(message));
+        }
+    }
+    Ok(claims)
 }
 
 /// `0..1`, `0..` or `..1`.
@@ -166,8 +196,9 @@ fn check_one(
     common: &Common,
 ) -> Result<(), Failure> {
     let examination = Examination::of(program, questions, args.half);
+    let verdict = VerdictRecord::new(&examination.verdict, names);
     let mut value = examination::json(&examination, names);
-    value["verdict"] = json!(VerdictRecord::new(&examination.verdict, names));
+    value["verdict"] = json!(verdict);
     let sides = inputs.iter().map(|Column { name, domain: [low, high], .. }| {
         format!("{name} in [{}, {}]", shortest(*low), shortest(*high))
     });
@@ -178,41 +209,28 @@ fn check_one(
         examination::text(&examination, names)
     );
     common.result(&value, &text)?;
-    let verdict = &examination.verdict;
-    let worst = refuted(args, verdict).next();
-    match worst.map(|topic| record_text(verdict, topic, names)) {
-        Some(reason) => Err(Failure::unmet(reason)),
+    match refuted(args, &verdict) {
+        Some(claim) => Err(Failure::unmet(claim_text(claim))),
         None => Ok(()),
     }
 }
 
-/// The topics asked for in which something is refuted.
-fn refuted<'a>(args: &Args, verdict: &'a Verdict) -> impl Iterator<Item = Topic> + 'a {
-    let asked = [
-        (Topic::Finite, true),
-        (Topic::Range, !args.range.is_empty()),
-        (Topic::Energy, args.energy),
-    ];
-    asked.into_iter().filter(|(_, asked)| *asked).map(|(topic, _)| topic).filter(|&topic| {
-        let worst = verdict.worst(topic);
-        worst.is_some_and(|finding| matches!(finding.exact, Status::Refuted { .. }))
-    })
-}
-
-fn record_text(verdict: &Verdict, topic: Topic, names: &Names) -> String {
-    let record = VerdictRecord::new(verdict, names);
-    let claim = match topic {
-        Topic::Finite => Some(record.finite),
-        Topic::Range => record.range,
-        Topic::Energy => record.energy,
+/// The first that was asked for and is refuted.
+fn refuted<'a>(args: &Args, verdict: &'a VerdictRecord) -> Option<&'a ClaimRecord> {
+    let [finite, range] = ALWAYS_ASKED;
+    let asked = |topic: &str| {
+        topic == finite
+            || topic == range && !args.range.is_empty()
+            || args.claim.iter().any(|claim| Claim::name_of(claim) == topic)
     };
-    claim.map(|claim| claim_text(&claim)).unwrap_or_default()
+    let topics = verdict.topics().into_iter().filter(|(topic, _)| asked(topic));
+    topics.map(|(_, claim)| claim).find(|claim| claim.exact.status == "refuted")
 }
 
 fn check_front(args: &Args, folder: &Path, common: &Common) -> Result<(), Failure> {
     let (run, front) = run_folder::load(folder, args.which)?;
     let names = run.names();
-    let questions = questions(args, &run.inputs, &run.outputs)?;
+    let questions = questions(args, &run.inputs, &run.outputs, &run.claims())?;
     if let Some(number) = args.pick {
         let member = number.checked_sub(1).and_then(|i| front.members.get(i)).ok_or_else(|| {
             Failure::usage(format!(
@@ -223,22 +241,23 @@ fn check_front(args: &Args, folder: &Path, common: &Common) -> Result<(), Failur
         let asked = Asked { inputs: run.inputs.clone(), questions };
         return check_one(args, &member.program, &names, &asked, common);
     }
-    let judge = |member: &FrontMember| Verdict::of(&member.program, &questions);
-    let verdicts: Vec<Verdict> = front.members.par_iter().map(judge).collect();
+    let judge = |member: &FrontMember| {
+        VerdictRecord::new(&Verdict::of(&member.program, &questions), &names)
+    };
+    let verdicts: Vec<VerdictRecord> = front.members.par_iter().map(judge).collect();
     let pairs = || front.members.iter().zip(&verdicts);
     let records: Vec<_> = pairs()
         .map(|(member, verdict)| {
-            let verdict = VerdictRecord::new(verdict, &names);
             json!({"cost": member.cost, "formula": member.formula, "verdict": verdict})
         })
         .collect();
     let mut text = format!("{:>4}  {:>6}  verdict\n", "#", "cycles");
     for (i, (member, verdict)) in pairs().enumerate() {
-        text += &rows(i + 1, member, verdict, &names);
+        text += &rows(i + 1, member, verdict);
     }
     text += &totals(&verdicts);
     common.result(&records, &text)?;
-    let failed = verdicts.iter().filter(|verdict| refuted(args, verdict).next().is_some()).count();
+    let failed = verdicts.iter().filter(|verdict| refuted(args, verdict).is_some()).count();
     if failed > 0 {
         let message = format!("{failed} of {} formulas fail in what was asked for", verdicts.len());
         return Err(Failure::unmet(message));
@@ -247,21 +266,14 @@ fn check_front(args: &Args, folder: &Path, common: &Common) -> Result<(), Failur
 }
 
 /// A line for each topic that is not proved, or one.
-fn rows(number: usize, member: &FrontMember, verdict: &Verdict, names: &Names) -> String {
-    let topics = [Topic::Finite, Topic::Range, Topic::Energy];
-    let asked = topics.into_iter().filter(|&topic| verdict.worst(topic).is_some());
-    let proved = |topic: &Topic| {
-        verdict.worst(*topic).is_some_and(|f| f.exact == Status::Proved && f.gpu == Status::Proved)
-    };
-    let (good, bad): (Vec<Topic>, Vec<Topic>) = asked.partition(proved);
-    let words: Vec<&str> = good.iter().map(|&topic| word(topic)).collect();
-    let mut lines = Vec::new();
-    if !words.is_empty() {
-        lines.push(format!("{} proved", words.join(", ")));
-    }
-    lines.extend(bad.iter().map(|&topic| record_text(verdict, topic, names)));
+fn rows(number: usize, member: &FrontMember, verdict: &VerdictRecord) -> String {
+    let (good, bad): (Vec<_>, Vec<_>) =
+        verdict.topics().into_iter().partition(|(_, claim)| claim.claim.is_none());
+    let words: Vec<&str> = good.iter().map(|(topic, _)| *topic).collect();
+    let proved = (!words.is_empty()).then(|| format!("{} proved", words.join(", ")));
+    let lines = proved.into_iter().chain(bad.iter().map(|(_, claim)| claim_text(claim)));
     let mut text = String::new();
-    for (i, line) in lines.iter().enumerate() {
+    for (i, line) in lines.enumerate() {
         let _ = match i {
             0 => writeln!(text, "{number:>4}  {:>6}  {line}", cycles_text(member.cost)),
             _ => writeln!(text, "{:>4}  {:>6}  {line}", "", ""),
@@ -270,37 +282,19 @@ fn rows(number: usize, member: &FrontMember, verdict: &Verdict, names: &Names) -
     text
 }
 
-fn word(topic: Topic) -> &'static str {
-    match topic {
-        Topic::Finite => "finite",
-        Topic::Range => "range",
-        Topic::Energy => "energy",
-    }
-}
-
 /// How many formulas are proved, refuted, open, by topic.
-fn totals(verdicts: &[Verdict]) -> String {
+fn totals(verdicts: &[VerdictRecord]) -> String {
     let mut text = String::from("\n              proved  refuted     open\n");
-    for topic in [Topic::Finite, Topic::Range, Topic::Energy] {
-        let found: Vec<_> = verdicts.iter().filter_map(|verdict| verdict.worst(topic)).collect();
-        if found.is_empty() {
-            continue;
-        }
-        for (arithmetic, gpu) in [("f32", false), ("GPUs", true)] {
-            let status = |finding: &&crate::stability::Finding| match gpu {
-                true => finding.gpu.clone(),
-                false => finding.exact.clone(),
-            };
-            let count =
-                |wanted: fn(&Status) -> bool| found.iter().filter(|f| wanted(&status(f))).count();
-            let _ = writeln!(
-                text,
-                "{:<7} {arithmetic:<5} {:>6}   {:>6}   {:>6}",
-                word(topic),
-                count(|status| *status == Status::Proved),
-                count(|status| matches!(status, Status::Refuted { .. })),
-                count(|status| matches!(status, Status::Open { .. }))
-            );
+    let topics = verdicts.first().map(VerdictRecord::topics).unwrap_or_default();
+    for (place, (topic, _)) in topics.iter().enumerate() {
+        let claims: Vec<_> = verdicts.iter().map(|verdict| verdict.topics()[place].1).collect();
+        let exact = claims.iter().map(|claim| &claim.exact.status).collect::<Vec<_>>();
+        let gpu = claims.iter().flat_map(|claim| &claim.gpu).map(|gpu| &gpu.status).collect();
+        for (arithmetic, found) in [("f32", exact), ("GPUs", gpu)] {
+            let [proved, refuted, open] = ["proved", "refuted", "open"]
+                .map(|status| found.iter().filter(|found| **found == status).count());
+            let _ =
+                writeln!(text, "{topic:<7} {arithmetic:<5} {proved:>6}   {refuted:>6}   {open:>6}");
         }
     }
     text

@@ -5,7 +5,7 @@ use crate::num::Interval;
 use crate::program::{Names, shortest};
 use crate::run::{self, Run};
 use crate::search::{Front, FrontMember};
-use crate::stability::{Questions, Unheld, must_stay_single, unheld};
+use crate::stability::{Unheld, must_stay_single, unheld};
 use crate::wording::examination::expression;
 use crate::wording::number_text;
 use crate::wording::{cycles_text, error_text};
@@ -65,7 +65,7 @@ struct Emitted<'a> {
 pub fn run(args: &Args, common: &Common) -> Result<(), Failure> {
     let (run, front) = run_folder::load(&args.run, args.which)?;
     let mut member = pick(args, &run, &front)?.clone();
-    member.judge(&Questions::of(&run.inputs, &run.outputs), &run.names());
+    member.judge(&run.questions(), &run.names());
     let member = &member;
     let code = match (args.half, args.half_error) {
         (false, None) => run::snippet(&run, member, args.lang),
@@ -93,7 +93,7 @@ fn half(
         let message = format!("--half: {} has no halves; {known} do", args.lang);
         return Err(Failure::usage(message));
     }
-    let domain = Questions::of(&run.inputs, &run.outputs).domain;
+    let domain = run.questions().domain;
     let stay_single = match bound {
         Some(bound) => stay_single(run, member, &domain, bound)?,
         None => Vec::new(),

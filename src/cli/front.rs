@@ -4,7 +4,6 @@ use crate::run::Subject;
 use crate::run::{MemberRecord, Run};
 use crate::search::Front;
 use crate::search::Published;
-use crate::stability::Questions;
 use crate::wording::front_table;
 use std::path::{Path, PathBuf};
 
@@ -21,7 +20,7 @@ pub fn run(args: &Args, common: &Common) -> Result<(), Failure> {
     let (mut run, mut front) = run_folder::load(&args.run, args.which)?;
     count_registers(&run, &mut front);
     let names = run.names();
-    front.judge(&Questions::of(&run.inputs, &run.outputs), &names);
+    front.judge(&run.questions(), &names);
     let records: Vec<_> = front.members.iter().map(|m| MemberRecord::new(m, &names)).collect();
     let table =
         front_table(&front, &incumbents(&mut run, &args.run).unwrap_or_default(), &names.outputs)

@@ -1,6 +1,6 @@
 use super::output::{check_writable, save};
 use super::pruning::Pruning;
-use super::{Common, Failure};
+use super::{Common, Exit, Failure};
 use crate::dataset::{Column, InputColumns, import_csv};
 use serde::Serialize;
 use std::path::{Path, PathBuf};
@@ -20,6 +20,9 @@ pub struct Args {
     /// The inputs: the first N columns, or names as in a,b; all others are outputs
     #[arg(long, value_name = "N|NAMES", value_parser = input_columns)]
     inputs: InputColumns,
+    /// What to ask of formulas for it, as in "sum: a + b <= 1"; can be given several times
+    #[arg(long, value_name = "CLAIM")]
+    claim: Vec<String>,
     #[command(flatten)]
     pruning: Pruning,
 }
@@ -38,7 +41,9 @@ struct Imported {
 }
 
 pub fn run(args: &Args, common: &Common) -> Result<(), Failure> {
-    let dataset = import_csv(&args.table, &args.inputs)?;
+    let mut dataset = import_csv(&args.table, &args.inputs)?;
+    let claimed = args.claim.iter().try_for_each(|claim| dataset.claim(claim));
+    claimed.map_err(|error| Failure::new(Exit::Usage, error))?;
     if same_file(&args.table, &args.output) {
         let path = args.output.display();
         let message = format!("{path}: the output would replace the table; write to another file");

@@ -20,6 +20,7 @@ struct Info {
     recipe: String,
     inputs: Vec<ColumnInfo>,
     outputs: Vec<ColumnInfo>,
+    claims: Vec<String>,
     search: Rows,
     validation: Rows,
     incumbents: Vec<String>,
@@ -65,6 +66,7 @@ pub fn run(args: &Args, common: &Common) -> Result<(), Failure> {
         search: rows(&dataset.search),
         validation: rows(&dataset.validation),
         incumbents: incumbents.into_iter().map(|known| known.incumbent.name).collect(),
+        claims: dataset.claims,
         name: dataset.name,
         recipe: dataset.origin.to_string(),
     };
@@ -117,6 +119,9 @@ fn page(info: &Info) -> String {
     line(format!("validation  {}", describe_rows(&info.validation)));
     if !info.incumbents.is_empty() {
         line(format!("incumbents  {}", info.incumbents.join(", ")));
+    }
+    if !info.claims.is_empty() {
+        line(format!("claims      {}", info.claims.join("\n            ")));
     }
     let all = info.inputs.iter().chain(&info.outputs);
     let width = all.map(|column| column.name.len()).max().unwrap_or(0).max("column".len()).min(60);

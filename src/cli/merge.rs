@@ -6,7 +6,6 @@ use crate::run::{
     merge,
 };
 use crate::search::Front;
-use crate::stability::Questions;
 use crate::wording::front_table;
 use std::path::{Path, PathBuf};
 
@@ -28,7 +27,7 @@ pub struct Args {
 pub fn run(args: &Args, common: &Common) -> Result<(), Failure> {
     let (run, mut union) = united(args, Which { minimax: false })?;
     let (_, mut minimax) = united(args, Which { minimax: true })?;
-    let questions = Questions::of(&run.inputs, &run.outputs);
+    let questions = run.questions();
     for front in [&mut union, &mut minimax] {
         front.judge(&questions, &run.names());
     }

@@ -125,6 +125,7 @@ fn imported(path: &Path, mut table: Table, inputs: &InputColumns) -> Result<Data
         outputs,
         search,
         validation,
+        ..Dataset::default()
     };
     dataset.validate_as(path)?;
     Ok(dataset)

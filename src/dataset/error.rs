@@ -16,6 +16,8 @@ pub enum Error {
     Empty { path: PathBuf },
     #[error("{path}: not an lgp dataset (it does not begin with LGPDATA1); if it is a table, convert it with `lgp import`", path = path.display())]
     Magic { path: PathBuf },
+    #[error("{path}: {problem}", path = path.display())]
+    Claim { path: PathBuf, problem: String },
     #[error("{path}: dataset format version {found}, but this program reads versions up to {supported}; generate or import it again with this program", path = path.display())]
     Version { path: PathBuf, found: u32, supported: u32 },
     #[error("{path}: truncated: {found} bytes of {expected}; copy, generate or import it again", path = path.display())]

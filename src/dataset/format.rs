@@ -3,7 +3,9 @@
 //! weights, free and standard errors, then the validation split's), and the 32-byte blake3 checksum
 //! of everything before it.
 
-use super::{Column, Dataset, Error, LARGEST_FILE, Origin, Split, read_file, replace_file};
+use super::{
+    Column, Dataset, Error, LARGEST_FILE, Origin, Split, claims_of_old, read_file, replace_file,
+};
 use ron::extensions::Extensions;
 use serde::{Deserialize, Serialize};
 use std::path::Path;
@@ -24,6 +26,8 @@ struct Header {
     origin: Option<Origin>,
     inputs: Vec<Column>,
     outputs: Vec<Column>,
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    claims: Vec<String>,
     search: SplitHeader,
     validation: SplitHeader,
 }
@@ -93,15 +97,16 @@ impl Dataset {
         })
     }
 
-    /// 16 hexadecimal digits, equal for equal names, columns and rows, wherever they are from.
+    /// 16 hexadecimal digits, equal for equal names, columns and rows, wherever they are from
+    /// and whatever is claimed of them.
     pub fn hash(&self) -> String {
-        self.hash_with(&self.header(0, None, None))
+        self.hash_with(&self.header(0, None, None, &[]))
     }
 
     /// Whether a record names this data by its hash; records of earlier versions have that of a file of
     /// version 1.
     pub fn has_hash(&self, hash: &str) -> bool {
-        let version_1 = || self.header(1, Some(self.origin.to_string()), None);
+        let version_1 = || self.header(1, Some(self.origin.to_string()), None, &[]);
         hash == self.hash() || hash == self.hash_with(&version_1())
     }
 
@@ -115,7 +120,7 @@ impl Dataset {
     /// A dataset that [`Dataset::validate`] refuses.
     pub fn to_bytes(&self, path: &Path) -> Result<Vec<u8>, Error> {
         self.validate_as(path)?;
-        let header = self.header(VERSION, None, Some(self.origin.clone()));
+        let header = self.header(VERSION, None, Some(self.origin.clone()), &self.claims);
         if u32::try_from(header.len()).is_err() {
             let problem = "names and origin are longer than 4 GiB".into();
             return Err(Error::Header { path: path.into(), problem });
@@ -126,7 +131,13 @@ impl Dataset {
         Ok(bytes)
     }
 
-    fn header(&self, version: u32, recipe: Option<String>, origin: Option<Origin>) -> String {
+    fn header(
+        &self,
+        version: u32,
+        recipe: Option<String>,
+        origin: Option<Origin>,
+        claims: &[String],
+    ) -> String {
         let split = |split: &Split| SplitHeader {
             rows: split.rows() as u64,
             weighted: !split.weights.is_empty(),
@@ -141,6 +152,7 @@ impl Dataset {
             origin,
             inputs: self.inputs.clone(),
             outputs: self.outputs.clone(),
+            claims: claims.to_vec(),
             search: split(&self.search),
             validation: split(&self.validation),
         };
@@ -207,7 +219,10 @@ fn read_header(path: &Path, bytes: &[u8], intact: bool) -> Result<(Header, Origi
     let mut header: Header =
         notation().from_str(text).map_err(|error| unusable(error.to_string()))?;
     let origin = match version {
-        1 => header.recipe.as_deref().map(Origin::of_text),
+        1 => {
+            header.claims = claims_of_old(&header.outputs);
+            header.recipe.as_deref().map(Origin::of_text)
+        }
         _ => header.origin.take(),
     };
     let origin =
@@ -273,5 +288,6 @@ fn assemble(header: Header, origin: Origin, body: &[u8]) -> Dataset {
         origin,
         inputs: header.inputs,
         outputs: header.outputs,
+        claims: header.claims,
     }
 }

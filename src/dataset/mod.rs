@@ -5,6 +5,7 @@
 //! checksummed binary file (`.bin`, see [`Dataset::save`]) and can be made
 //! from a CSV table ([`import_csv`]).
 
+mod claims;
 mod csv;
 mod error;
 mod file;
@@ -18,6 +19,8 @@ mod sampled;
 mod select;
 mod unit;
 
+pub(crate) use claims::claims_over;
+pub use claims::{check_claims, claims_of_old};
 pub use csv::{InputColumns, Table, import_csv};
 pub use error::Error;
 pub use file::{StagedFile, TEMPORARY, remove_file, replace_file, witness_file_operations};
@@ -26,7 +29,7 @@ pub use kind::{check_replaceable, read_file, read_text};
 pub use name::{LONGEST_NAME, NameFault, check_name, check_text};
 pub use origin::Origin;
 pub(crate) use sampled::combinations;
-pub use sampled::{Axis, axis, grid_weights};
+pub use sampled::{Axis, Spacing, axis, grid_weights};
 pub use unit::{joint_unit, output_units, unit};
 
 use crate::program::Names;
@@ -90,6 +93,8 @@ pub struct Dataset {
     pub origin: Origin,
     pub inputs: Vec<Column>,
     pub outputs: Vec<Column>,
+    /// What formulas for it are asked ([`crate::program::Claim`]).
+    pub claims: Vec<String>,
     /// What a search is fitted to.
     pub search: Split,
     /// What its results are judged on.
@@ -99,7 +104,7 @@ pub struct Dataset {
 impl Dataset {
     /// Checks what every consumer relies on: a name that names a file ([`check_name`]); at least one
     /// input, one output and one row a split, at most [`MOST_COLUMNS`] and [`MOST_ROWS`]; names of columns
-    /// that are unique identifiers, units of one line; ordered domains within f32; columns of equal length holding finite values; weights finite,
+    /// that are unique identifiers, units of one line; claims over them ([`check_claims`]); ordered domains within f32; columns of equal length holding finite values; weights finite,
     /// not negative, and not all zero; a grid that multiplies to the rows.
     ///
     /// # Errors
@@ -122,6 +127,7 @@ impl Dataset {
             return Err(Error::NoOutputs { path: path.into() });
         }
         check_columns(path, self.columns())?;
+        check_claims(path, &self.claims, &self.names())?;
         self.validate_split(path, "search", &self.search)?;
         self.validate_split(path, "validation", &self.validation)
     }

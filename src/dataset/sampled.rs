@@ -1,6 +1,7 @@
 //! Datasets of functions that are at hand.
 
 use super::{Column, Dataset, Error, Origin, Split, domain_of};
+use std::borrow::Cow;
 use std::ops::RangeInclusive;
 
 /// Points along each axis of a search grid: about 4096 in all where there are several inputs.
@@ -9,31 +10,65 @@ const POINTS: [usize; 4] = [256, 64, 16, 8];
 /// An input of a function, and where it is sampled.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Axis {
-    pub name: String,
+    pub name: Cow<'static, str>,
     /// `1` where it has none.
-    pub unit: String,
-    pub domain: RangeInclusive<f64>,
+    pub unit: Cow<'static, str>,
+    pub domain: [f64; 2],
+    pub spacing: Spacing,
+    /// In place of the domain's low end, where the function has no value.
+    pub least: Option<f64>,
+}
+
+/// In what samples are equidistant.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Spacing {
+    Linear,
+    /// Of a domain above 0.
+    Logarithmic,
 }
 
 /// An input without a unit.
 pub fn axis(name: &str, domain: RangeInclusive<f64>) -> Axis {
-    Axis { name: name.to_owned(), unit: "1".to_owned(), domain }
+    let domain = [*domain.start(), *domain.end()];
+    Axis { name: name.to_owned().into(), domain, ..Axis::unit("") }
 }
 
 impl Axis {
-    fn at(&self, u: f64) -> f32 {
-        let (low, high) = (self.domain.start(), self.domain.end());
-        (low + u * (high - low)) as f32
+    /// A dimensionless input on [0, 1].
+    pub const fn unit(name: &'static str) -> Axis {
+        let (name, unit) = (Cow::Borrowed(name), Cow::Borrowed("1"));
+        Axis { name, unit, domain: [0.0, 1.0], spacing: Spacing::Linear, least: None }
     }
 
-    /// Centres of equal cells.
-    fn centres(&self, cells: usize) -> Vec<f32> {
+    /// Where `u` of [0, 1] comes to lie.
+    pub fn at(&self, u: f64) -> f32 {
+        let [low, high] = self.domain;
+        let value = match self.spacing {
+            Spacing::Linear => low + u * (high - low),
+            Spacing::Logarithmic => low * (high / low).powf(u),
+        };
+        value as f32
+    }
+
+    /// Centres of so many equal cells.
+    pub fn centres(&self, cells: usize) -> Vec<f32> {
         (0..cells).map(|i| self.at((i as f64 + 0.5) / cells as f64)).collect()
     }
 
-    /// From end to end; an odd number of intervals, so that none is a centre of an even number of cells.
-    fn nodes(&self, intervals: usize) -> Vec<f32> {
-        (0..=intervals).map(|k| self.at(k as f64 / intervals as f64)).collect()
+    /// Equidistant nodes from end to end; those of an odd number of intervals are no centres of an even number of
+    /// cells.
+    pub fn nodes(&self, intervals: usize) -> Vec<f32> {
+        let mut nodes: Vec<f32> =
+            (0..=intervals).map(|k| self.at(k as f64 / intervals as f64)).collect();
+        if let Some(least) = self.least {
+            nodes[0] = least as f32;
+        }
+        nodes
+    }
+
+    /// The column that it becomes.
+    pub fn column(&self) -> Column {
+        Column { unit: self.unit.clone().into(), ..Column::new(&self.name, self.domain) }
     }
 }
 
@@ -64,13 +99,8 @@ impl Dataset {
             Split::on_grid(&along, |point| function(std::array::from_fn(|i| point[i])))
         };
         let splits = [grid(Axis::centres, cells), grid(Axis::nodes, cells * 3 / 2 + 1)];
-        let input = |axis: &Axis| Column {
-            name: axis.name.clone(),
-            unit: axis.unit.clone(),
-            domain: [*axis.domain.start(), *axis.domain.end()],
-        };
         let origin = Origin::Formula { text: "a function, sampled".to_owned() };
-        let inputs = axes.iter().map(input).collect();
+        let inputs = axes.iter().map(Axis::column).collect();
         Dataset::of_splits(
             &outputs.join("_"),
             origin,
@@ -99,7 +129,8 @@ impl Dataset {
         };
         let outputs = outputs.into_iter().zip(inputs.len()..).map(output).collect();
         let name = name.to_owned();
-        let dataset = Dataset { name, origin, inputs, outputs, search, validation };
+        let claims = Vec::new();
+        let dataset = Dataset { name, origin, inputs, outputs, claims, search, validation };
         dataset.validate()?;
         Ok(dataset)
     }

@@ -1,4 +1,4 @@
-use super::{Column, Dataset, Error, Split};
+use super::{Column, Dataset, Error, Split, claims_over};
 use crate::suggest::nearest;
 
 impl Dataset {
@@ -6,7 +6,7 @@ impl Dataset {
     /// output column may be asked for as an input. Without `inputs`: all the
     /// dataset's inputs, never its other outputs. Without `outputs`: all its
     /// outputs but those asked for as inputs. The rows stay the same; a split
-    /// stays a grid only if the inputs do.
+    /// stays a grid only if the inputs do; of the claims stay those over the columns that do.
     ///
     /// # Errors
     /// An unknown name (with a suggestion), a name given twice, a column that
@@ -39,14 +39,16 @@ impl Dataset {
         let named = |indices: &[usize]| -> Vec<Column> {
             indices.iter().filter_map(|&index| self.column(index).cloned()).collect()
         };
-        let selected = Dataset {
+        let mut selected = Dataset {
             name: self.name.clone(),
             origin: self.origin.clone(),
             inputs: named(inputs),
             outputs: named(outputs),
+            claims: Vec::new(),
             search: self.pick(&self.search, &indices, inputs.len(), same_inputs),
             validation: self.pick(&self.validation, &indices, inputs.len(), same_inputs),
         };
+        selected.claims = claims_over(&self.claims, &selected.names());
         selected.validate()?;
         Ok(selected)
     }

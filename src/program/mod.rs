@@ -16,8 +16,8 @@ pub use effective::{effective, effective_into, use_counts};
 pub use hash::{Constants, structural_hash};
 pub use outer::Outer;
 pub use text::{
-    FreeConstant, MAX_FORMULA, Names, ParseError, Parsed, Scope, format_constant, parse,
-    parse_open, parse_template, print, print_expression, shortest,
+    ALWAYS_ASKED, Claim, FreeConstant, MAX_FORMULA, Names, ParseError, Parsed, Scope,
+    format_constant, parse, parse_open, parse_template, print, print_expression, shortest,
 };
 pub(crate) use text::{place, plain, pointed};
 

@@ -26,7 +26,6 @@ use crate::run::{
     Outcome, RecordError, Run, Subject, SubjectError, Trace, load_front, load_run, load_trace,
 };
 use crate::search::{Front, Published};
-use crate::stability::Questions;
 use std::path::Path;
 use std::sync::Arc;
 
@@ -102,7 +101,7 @@ impl Report {
 
     /// Finds out what can be proved of its formulas, unless that is known.
     pub fn judge(&mut self) {
-        let questions = Questions::of(&self.run.inputs, &self.run.outputs);
+        let questions = self.run.questions();
         for front in [&mut self.front, &mut self.minimax] {
             front.judge(&questions, &self.run.names());
         }

@@ -21,7 +21,7 @@ pub struct Incompatible {
 /// searches they came from, each once. Nothing of no runs.
 ///
 /// # Errors
-/// Runs of other data, scenes, columns, grammars, GPU profiles, error measures or requirements. (What a
+/// Runs of other data, scenes, columns, claims, grammars, GPU profiles, error measures or requirements. (What a
 /// search was told about where to look, such as transforms, may differ: its formulas are as good.)
 pub fn merge(runs: Vec<(Run, Front)>) -> Result<Option<(Run, Front)>, Incompatible> {
     let mut sources = Vec::new();
@@ -58,6 +58,7 @@ fn check(one: &Run, other: &Run) -> Result<(), Incompatible> {
     let differences = [
         ("dataset", data(one), data(other)),
         ("columns", names(one), names(other)),
+        ("claims", one.claims().join("; "), other.claims().join("; ")),
         ("requirements", one.requirements(), other.requirements()),
         ("grammar", grammars[0].clone(), grammars[1].clone()),
         ("GPU profile", profiles[0].clone(), profiles[1].clone()),

@@ -3,12 +3,13 @@
 use super::RecordError;
 use super::folder::{RUN, read};
 use crate::cost::Profile;
-use crate::dataset::Column;
+use crate::dataset::{Column, claims_of_old};
 use crate::eval::Isa;
 use crate::grammar::{FileError, Grammar};
 use crate::program::Names;
 use crate::scene::Scene;
 use crate::search::{Counts, Enumeration, Goal, Method, Problem};
+use crate::stability::Questions;
 use serde::{Deserialize, Serialize, Serializer};
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
@@ -31,6 +32,9 @@ pub struct Run {
     /// The columns that were inputs and outputs.
     pub inputs: Vec<Column>,
     pub outputs: Vec<Column>,
+    /// What was claimed of the outputs; none in records of earlier versions.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub claims: Option<Vec<String>>,
     /// The grammar's name, and what it was when the run was made; records of an older version lack that.
     pub grammar: String,
     #[serde(default, skip_serializing_if = "Option::is_none")]
@@ -115,6 +119,7 @@ impl Run {
             name: data.name.clone(),
             inputs: data.inputs.clone(),
             outputs: data.outputs.clone(),
+            claims: Some(data.claims.clone()),
             grammar: grammar.name.clone(),
             rules: Some(Grammar::clone(grammar)),
             gpu: problem.profile().name.clone(),
@@ -143,6 +148,16 @@ impl Run {
         let [inputs, outputs] = [&self.inputs, &self.outputs]
             .map(|columns| columns.iter().map(|column| column.name.clone()));
         Names::new(inputs, outputs)
+    }
+
+    /// What is claimed of the outputs.
+    pub fn claims(&self) -> Vec<String> {
+        self.claims.clone().unwrap_or_else(|| claims_of_old(&self.outputs))
+    }
+
+    /// What is asked of its formulas.
+    pub fn questions(&self) -> Questions {
+        Questions::of(&self.inputs, &self.outputs, &self.claims())
     }
 
     /// The grammar as it was; that of its name, if it is built in, where the record lacks it.

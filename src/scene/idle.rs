@@ -6,7 +6,7 @@ use crate::eval::{Evaluator, Samples, Tape};
 use crate::num::{Interval, enclose};
 use crate::op::Op;
 use crate::program::{Arg, Program, effective};
-use crate::stability::{Bound, Claim, Limits, Rounding, Status, prove};
+use crate::stability::{Bound, Limits, Property, Rounding, Status, prove};
 use serde::{Deserialize, Serialize};
 
 /// How it is known that something never happens.
@@ -126,7 +126,7 @@ const BOXES: usize = 4096;
 /// wherever its inputs are in theirs.
 fn holds_over(program: &Program, domain: &[Interval], [low, high]: [f32; 2]) -> bool {
     let bounds = [Bound::AtLeast(low.into()), Bound::AtMost(high.into())];
-    let claims = bounds.map(|bound| Claim::of(0, bound));
+    let claims = bounds.map(|bound| Property::of(0, bound));
     let limits = Limits { slack: 0.0, boxes: BOXES, ..Limits::new(Rounding::Exact) };
     prove(program, domain, &claims, &limits).iter().all(|status| *status == Status::Proved)
 }
@@ -135,7 +135,7 @@ fn holds_over(program: &Program, domain: &[Interval], [low, high]: [f32; 2]) -> 
 fn loses_finiteness(before: &Program, after: &Program, domain: &[Interval]) -> bool {
     let limits = Limits { boxes: BOXES, ..Limits::new(Rounding::Exact) };
     (0..before.outputs.len()).any(|output| {
-        let claim = [Claim::of(output, Bound::Finite)];
+        let claim = [Property::of(output, Bound::Finite)];
         let is_refuted = |program: &Program| {
             matches!(prove(program, domain, &claim, &limits)[0], Status::Refuted { .. })
         };
@@ -161,7 +161,8 @@ mod tests {
     use crate::program::{Names, parse, print};
 
     fn line() -> Dataset {
-        Dataset::sampled([axis("x", 0.0..=1.0)], ["y"], |x| x).unwrap()
+        let line = Dataset::sampled([axis("x", 0.0..=1.0)], ["y"], |x| x).unwrap();
+        Dataset { validation: line.search.clone(), ..line }
     }
 
     #[test]

@@ -3,7 +3,7 @@
 use super::histogram::Density;
 use super::quantisation::Steps;
 use super::{Error, Scene, fixed};
-use crate::dataset::{Column, Dataset, Origin, Split};
+use crate::dataset::{Column, Dataset, Origin, Split, claims_over};
 use crate::eval::{Arithmetic, Double};
 use crate::program::Program;
 
@@ -67,8 +67,11 @@ impl<'a> View<'a> {
             scene: format!("{name}: {}", self.scene.summary()),
         };
         let called = format!("{}_{}", self.whole.name, identifier(name));
-        Dataset::of_splits(&called, origin, inputs, outputs, [search, validation])
-            .map_err(|error| Error::Dataset { scene: name.clone(), error: Box::new(error) })
+        let dataset = Dataset::of_splits(&called, origin, inputs, outputs, [search, validation]);
+        let mut dataset = dataset
+            .map_err(|error| Error::Dataset { scene: name.clone(), error: Box::new(error) })?;
+        dataset.claims = claims_over(&self.whole.claims, &dataset.names());
+        Ok(dataset)
     }
 
     fn split(&self, which: &'static str, split: &Split) -> Result<Split, Error> {

@@ -9,7 +9,7 @@ use crate::grammar::Grammar;
 use crate::op::Op;
 use crate::program::{Arg, Draft, Names, Program};
 use crate::stability::{
-    Bound, Claim, Limits, Questions, Rounding, Status, half_error, points_in, prove,
+    Bound, Limits, Property, Questions, Rounding, Status, half_error, points_in, prove,
 };
 use crate::suggest::did_you_mean;
 use serde::{Deserialize, Serialize};
@@ -264,7 +264,7 @@ impl Checks {
 
     /// What is asked of formulas over the whole domain.
     pub fn questions(&self, dataset: &Dataset) -> Questions {
-        let mut questions = Questions::of(&dataset.inputs, &dataset.outputs);
+        let mut questions = Questions::of(&dataset.inputs, &dataset.outputs, &dataset.claims);
         for requirement in &self.requirements {
             let &Requirement::Range { output, low, high } = requirement else { continue };
             for (o, range) in questions.ranges.iter_mut().enumerate() {
@@ -278,7 +278,7 @@ impl Checks {
 
     /// Whether nothing required is refuted anywhere in the domain.
     fn not_refuted(&self, program: &Program, dataset: &Dataset) -> bool {
-        let domain = Questions::of(&dataset.inputs, &[]).domain;
+        let domain = Questions::of(&dataset.inputs, &[], &[]).domain;
         let mut claims = Vec::new();
         for requirement in &self.requirements {
             let each = (0..program.outputs.len()).filter(|&o| match requirement {
@@ -286,10 +286,10 @@ impl Checks {
                 _ => true,
             });
             match *requirement {
-                Requirement::Finite => claims.extend(each.map(|o| Claim::of(o, Bound::Finite))),
+                Requirement::Finite => claims.extend(each.map(|o| Property::of(o, Bound::Finite))),
                 Requirement::Range { low, high, .. } => claims.extend(each.flat_map(|o| {
                     let bounds = [Bound::AtLeast(low.into()), Bound::AtMost(high.into())];
-                    bounds.map(|bound| Claim::of(o, bound))
+                    bounds.map(|bound| Property::of(o, bound))
                 })),
                 Requirement::Half { error } => {
                     let points = points_in(&domain);

@@ -1,6 +1,6 @@
 //! Inputs at which claims fail, by looking.
 
-use super::{Claim, points};
+use super::{Property, points};
 use crate::num::Interval;
 use crate::program::Program;
 
@@ -15,7 +15,7 @@ const CLIMBS: usize = 60;
 pub(super) fn search(
     program: &Program,
     domain: &[Interval],
-    claims: &[Claim],
+    claims: &[Property],
     slack: f64,
 ) -> Vec<Option<(Vec<f32>, f32)>> {
     let sides = domain.iter().filter(|side| side.low() < side.high()).count().max(1);
@@ -41,7 +41,7 @@ pub(super) fn search(
 }
 
 /// More is worse, and every number that fails is worse than NaN: it says more.
-fn rank(claim: &Claim, value: f32, slack: f64) -> f64 {
+fn rank(claim: &Property, value: f32, slack: f64) -> f64 {
     let excess = claim.excess(value, slack);
     if value.is_nan() { f64::MIN_POSITIVE } else { excess }
 }
@@ -59,7 +59,7 @@ fn axis(side: Interval, count: usize) -> Vec<f32> {
 fn climbed(
     program: &Program,
     domain: &[Interval],
-    claim: &Claim,
+    claim: &Property,
     slack: f64,
     per_side: usize,
     (mut known, mut input): (f64, Vec<f32>),

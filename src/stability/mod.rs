@@ -1,6 +1,6 @@
 //! Verdicts: what is known of a formula's behaviour wherever its inputs are in their domain.
 //!
-//! [`prove`] decides claims ([`Claim`]: finite, at least, at most) by branch and bound over the
+//! [`prove`] decides properties ([`Property`]: finite, at least, at most) by branch and bound over the
 //! domain's box: each is proved, refuted with an input that does it, or left open. An
 //! [`Enclosure`] bounds every instruction of a program on a box, for the interpreter's `f32` or for
 //! any arithmetic that GPUs are allowed ([`Rounding`]).
@@ -8,9 +8,9 @@
 //! ```
 //! use lgp::num::Interval;
 //! use lgp::program::{Names, parse};
-//! use lgp::stability::{Bound, Claim, Limits, Rounding, Status, prove};
+//! use lgp::stability::{Bound, Property, Limits, Rounding, Status, prove};
 //! let program = parse("y = x*(1 - x) + 0.1/x", &Names::new(["x"], ["y"]))?;
-//! let claims = [Bound::Finite, Bound::AtLeast(0.0), Bound::AtMost(0.3)].map(|b| Claim::of(0, b));
+//! let claims = [Bound::Finite, Bound::AtLeast(0.0), Bound::AtMost(0.3)].map(|b| Property::of(0, b));
 //! let prove = |low| {
 //!     let domain = [Interval::new(low, 1.0)];
 //!     prove(&program, &domain, &claims, &Limits::new(Rounding::Gpu))
@@ -51,9 +51,9 @@ pub use half::{Tried, half_error};
 pub use mixed::{Unheld, half_loss, must_stay_single, unheld};
 pub use points::points_in;
 pub use precision::{Loss, Precision};
-pub use prove::{Bound, Claim, Limits, Status, Stopped, prove, prove_until};
+pub use prove::{Bound, Limits, Property, Status, Stopped, prove, prove_until};
 pub use record::{ClaimRecord, StatusRecord, Value, VerdictRecord};
 pub use rounding::Rounding;
 pub use smoothness::{Break, JUMP, Smoothness, Trend};
 pub use variants::{Liberty, Spread, spreads};
-pub use verdict::{Finding, Questions, Topic, Verdict};
+pub use verdict::{Case, Finding, Questions, Verdict};

@@ -15,10 +15,10 @@ pub enum Bound {
     AtMost(f64),
 }
 
-/// A claim on one output of a program. What is to be claimed of something else (a sum of outputs)
-/// becomes an output first.
+/// A bound on one output of a program. What is claimed of something else (a sum of outputs) becomes an
+/// output first.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Claim {
+pub struct Property {
     pub output: usize,
     pub bound: Bound,
 }
@@ -61,9 +61,9 @@ impl Limits {
     }
 }
 
-impl Claim {
-    pub fn of(output: usize, bound: Bound) -> Claim {
-        Claim { output, bound }
+impl Property {
+    pub fn of(output: usize, bound: Bound) -> Property {
+        Property { output, bound }
     }
 
     /// By how much a value fails; infinite where it is NaN, not positive where it does not.
@@ -128,7 +128,7 @@ impl Ord for Part {
 pub fn prove(
     program: &Program,
     domain: &[Interval],
-    claims: &[Claim],
+    claims: &[Property],
     limits: &Limits,
 ) -> Vec<Status> {
     prove_until(program, domain, claims, limits, &|| false)
@@ -142,7 +142,7 @@ pub fn prove(
 pub fn prove_until(
     program: &Program,
     domain: &[Interval],
-    claims: &[Claim],
+    claims: &[Property],
     limits: &Limits,
     stopped: Stopped,
 ) -> Vec<Status> {
@@ -206,7 +206,7 @@ fn read_sides(program: &Program, domain: &[Interval]) -> Vec<Interval> {
 }
 
 /// The claims whose bit is set.
-fn marked(claims: &[Claim], bits: u64) -> impl Iterator<Item = (usize, &Claim)> {
+fn marked(claims: &[Property], bits: u64) -> impl Iterator<Item = (usize, &Property)> {
     claims.iter().enumerate().filter(move |(i, _)| bits >> i & 1 == 1)
 }
 
@@ -218,7 +218,7 @@ fn middle(side: Interval) -> f32 {
 fn split(
     program: &Program,
     enclosure: &Enclosure,
-    claims: &[Claim],
+    claims: &[Property],
     part: &Part,
     whole: &[Interval],
 ) -> Option<[Part; 2]> {
@@ -226,7 +226,7 @@ fn split(
     let slopes: Vec<f64> = (0..part.domain.len())
         .map(|side| {
             let slope =
-                |claim: &Claim| enclosure.slope(program, program.outputs[claim.output], side);
+                |claim: &Property| enclosure.slope(program, program.outputs[claim.output], side);
             marked(claims, part.undecided).map(|(_, claim)| slope(claim)).sum()
         })
         .collect();

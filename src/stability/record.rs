@@ -1,7 +1,7 @@
 //! Verdicts as `front.json` and `lgp check --json` have them.
 
-use super::{Finding, Status, Topic, Verdict};
-use crate::program::Names;
+use super::{Finding, Status, Verdict};
+use crate::program::{ALWAYS_ASKED, Names};
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 
@@ -12,8 +12,9 @@ pub struct VerdictRecord {
     /// None where nothing was asked.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub range: Option<ClaimRecord>,
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub energy: Option<ClaimRecord>,
+    /// By name.
+    #[serde(flatten)]
+    pub claims: BTreeMap<String, ClaimRecord>,
 }
 
 /// What became of a claim in the interpreter's arithmetic, and on GPUs.
@@ -63,7 +64,7 @@ impl Default for VerdictRecord {
     fn default() -> VerdictRecord {
         let sampled = StatusRecord::plain("sampled");
         let finite = ClaimRecord { exact: sampled, claim: None, gpu: None };
-        VerdictRecord { finite, range: None, energy: None }
+        VerdictRecord { finite, range: None, claims: BTreeMap::new() }
     }
 }
 
@@ -71,12 +72,22 @@ impl VerdictRecord {
     /// # Panics
     /// If the verdict is of no output.
     pub fn new(verdict: &Verdict, names: &Names) -> VerdictRecord {
-        let of = |topic| verdict.worst(topic).map(|finding| ClaimRecord::new(finding, names));
+        let of = |topic: &str| Some(ClaimRecord::new(verdict.worst(topic)?, names));
+        let [finite, range] = ALWAYS_ASKED;
+        let topics = verdict.topics().into_iter().filter(|topic| !ALWAYS_ASKED.contains(topic));
         VerdictRecord {
-            finite: of(Topic::Finite).expect("every output is asked whether it is finite"),
-            range: of(Topic::Range),
-            energy: of(Topic::Energy),
+            finite: of(finite).expect("every output is asked whether it is finite"),
+            range: of(range),
+            claims: topics.filter_map(|topic| Some((topic.to_owned(), of(topic)?))).collect(),
         }
+    }
+
+    /// What was asked, and what became of it.
+    pub fn topics(&self) -> Vec<(&str, &ClaimRecord)> {
+        let [finite, range] = ALWAYS_ASKED;
+        let claims = self.claims.iter().map(|(name, claim)| (name.as_str(), claim));
+        let range = self.range.iter().map(|claim| (range, claim));
+        [(finite, &self.finite)].into_iter().chain(range).chain(claims).collect()
     }
 
     /// Whether anything but samples was looked at.
@@ -108,15 +119,11 @@ impl StatusRecord {
             Status::Open { volume } => {
                 StatusRecord { volume: Some(*volume), ..StatusRecord::plain("open") }
             }
-            Status::Refuted { input, value } => {
-                let inputs = names.inputs.iter().cloned().zip(input.iter().copied());
-                let f0 = finding.f0(names).map(|f0| ("f0".to_owned(), f0));
-                StatusRecord {
-                    input: Some(inputs.chain(f0).collect()),
-                    value: Some((*value).into()),
-                    ..StatusRecord::plain("refuted")
-                }
-            }
+            Status::Refuted { input, value } => StatusRecord {
+                input: Some(finding.named(names, input).into_iter().collect()),
+                value: Some((*value).into()),
+                ..StatusRecord::plain("refuted")
+            },
         }
     }
 }

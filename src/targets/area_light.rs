@@ -18,9 +18,9 @@
 
 use super::lobe::ggx;
 use super::sampling::{SAMPLING, SAMPLING_SEED};
-use super::table::{Axis, Sample, Table};
+use super::table::{Sample, Table};
 use super::{Error, Progress, Recipe, Target, points};
-use crate::dataset::Dataset;
+use crate::dataset::{Axis, Dataset};
 use crate::quadrature::{Estimate, TanhSinh};
 use std::f64::consts::{FRAC_PI_2, PI};
 
@@ -125,9 +125,9 @@ pub fn generate(recipe: &Recipe, progress: Progress) -> Result<Dataset, Error> {
     let table = Table {
         recipe,
         axes: &[
-            Axis { unit: "rad", ..Axis::unit("omega") },
+            Axis { unit: "rad".into(), ..Axis::unit("omega") },
             Axis { least: Some(SMOOTHEST), ..Axis::unit("roughness") },
-            Axis { unit: "rad", domain: [0.0, FRAC_PI_2], ..Axis::unit("theta") },
+            Axis { unit: "rad".into(), domain: [0.0, FRAC_PI_2], ..Axis::unit("theta") },
         ],
         outputs: &[("lobe", "1")],
         points: recipe.count("points"),

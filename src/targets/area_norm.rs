@@ -20,9 +20,9 @@
 
 use super::lobe::{ggx, integrate_angle};
 use super::sampling::{SAMPLING, SAMPLING_SEED};
-use super::table::{Axis, Sample, Table};
+use super::table::{Sample, Table};
 use super::{Choices, Error, Parameter, Progress, Recipe, Target, points};
-use crate::dataset::Dataset;
+use crate::dataset::{Axis, Dataset};
 use crate::quadrature::TanhSinh;
 
 /// Largest estimated error that [`generate`] accepts.
@@ -119,7 +119,7 @@ pub fn generate(recipe: &Recipe, progress: Progress) -> Result<Dataset, Error> {
     let by_tangent = recipe.get("size") == Some(TAN_HALF_OMEGA);
     let size = match by_tangent {
         true => Axis { domain: [0.0, 0.5], ..Axis::unit(TAN_HALF_OMEGA) },
-        false => Axis { unit: "rad", ..Axis::unit(OMEGA) },
+        false => Axis { unit: "rad".into(), ..Axis::unit(OMEGA) },
     };
     let table = Table {
         recipe,

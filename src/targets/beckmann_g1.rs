@@ -6,9 +6,9 @@
 //! eqs. 26 and 27), up to 1.6, from where on the approximation is 1.
 
 use super::sampling::{SAMPLING, SAMPLING_SEED};
-use super::table::{Axis, Sample, Table};
+use super::table::{Sample, Table};
 use super::{Error, Progress, Recipe, Target, points};
-use crate::dataset::Dataset;
+use crate::dataset::{Axis, Dataset};
 use crate::microfacet::beckmann;
 
 /// Of Λ for slopes up to 1.6, by the tests of [`beckmann`].

@@ -15,9 +15,9 @@
 //! carried with its complement, which keeps the far tail of a narrow lobe.
 
 use super::sampling::{SAMPLING, SAMPLING_SEED};
-use super::table::{Axis, Sample, Table};
+use super::table::{Sample, Table};
 use super::{Choices, Error, Parameter, Progress, Recipe, Target, points};
-use crate::dataset::Dataset;
+use crate::dataset::{Axis, Dataset};
 use crate::microfacet::{fresnel, ggx};
 use crate::quadrature::{Abscissa, TanhSinh};
 use std::cell::Cell;
@@ -205,11 +205,16 @@ pub fn generate(recipe: &Recipe, progress: Progress) -> Result<Dataset, Error> {
         points: recipe.count("points"),
         allowed_error: ALLOWED_ERROR,
     };
-    table.dataset(progress, |point| {
+    let mut dataset = table.dataset(progress, |point| {
         let dfg = integrate(&rule, point[0], alpha(recipe, point[1]), masking);
         Sample { values: [dfg.scale, dfg.bias], error: dfg.error }
-    })
+    })?;
+    dataset.claim(ENERGY)?;
+    Ok(dataset)
 }
+
+/// No more light leaves than falls in, whatever the reflectance at normal incidence.
+const ENERGY: &str = "energy: f0*scale + bias <= 1 for f0 in 0..1";
 
 fn alpha(recipe: &Recipe, roughness: f64) -> f64 {
     let square = roughness * roughness;

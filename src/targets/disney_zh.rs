@@ -15,9 +15,9 @@
 //! sin θv, which leaves the quotient tan θd / sin θv that β needs, at v = n, too.
 
 use super::sampling::{SAMPLING, SAMPLING_SEED};
-use super::table::{Axis, Sample, Table};
+use super::table::{Sample, Table};
 use super::{Error, Progress, Recipe, Target, points};
-use crate::dataset::Dataset;
+use crate::dataset::{Axis, Dataset};
 use crate::quadrature::Rule;
 use std::f64::consts::PI;
 

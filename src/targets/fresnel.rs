@@ -6,9 +6,9 @@
 //! of water (η = 1.33) to above that of diamond (η = 2.42).
 
 use super::sampling::{SAMPLING, SAMPLING_SEED};
-use super::table::{Axis, Sample, Table};
+use super::table::{Sample, Table};
 use super::{Error, Progress, Recipe, Target, points};
-use crate::dataset::Dataset;
+use crate::dataset::{Axis, Dataset};
 use crate::microfacet::fresnel;
 
 /// A few roundings.

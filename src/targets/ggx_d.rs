@@ -6,19 +6,14 @@
 //! `t² / (1 + t²)`, t = tan θ / α, of the normals nearer to n, α at equal ratios
 //! from .001 to 1. The truth is that of n·h and α as rounded to f32.
 
-use super::table::{Axis, Spacing};
 use super::{Error, Progress, Recipe, Target, points};
-use crate::dataset::{Column, Dataset, Split, grid_weights};
+use crate::dataset::{Axis, Dataset, Spacing, Split, grid_weights};
 use crate::microfacet::{ggx, sampling};
 use std::f64::consts::PI;
 
-const ALPHA: Axis = Axis {
-    name: "alpha",
-    unit: "1",
-    domain: [0.001, 1.0],
-    spacing: Spacing::Logarithmic,
-    least: None,
-};
+fn widths() -> Axis {
+    Axis { domain: [0.001, 1.0], spacing: Spacing::Logarithmic, ..Axis::unit("alpha") }
+}
 
 pub(super) const TARGET: Target = Target {
     name: "ggx_d",
@@ -53,7 +48,7 @@ pub fn generate(recipe: &Recipe, progress: Progress) -> Result<Dataset, Error> {
     Ok(Dataset::of_splits(
         TARGET.name,
         recipe.origin("estimated error below 1e-13 before rounding to f32"),
-        vec![Column::new("n_dot_h", [0.0, 1.0]), Column::new(ALPHA.name, ALPHA.domain)],
+        vec![Axis::unit("n_dot_h").column(), widths().column()],
         [("d_over_peak", "1")],
         [search, validation],
     )?)
@@ -61,9 +56,9 @@ pub fn generate(recipe: &Recipe, progress: Progress) -> Result<Dataset, Error> {
 
 /// Every pair of a width and a place in its lobe, both given in [0, 1].
 fn rows(places: &[f64]) -> Split {
-    let mut columns = vec![Vec::new(); 3];
+    let (widths, mut columns) = (widths(), vec![Vec::new(); 3]);
     for &width in places {
-        let alpha = ALPHA.at(width);
+        let alpha = widths.at(width);
         for &place in places {
             let n_dot_h =
                 if place < 1.0 { sampling::ggx([0.0, place], alpha.into()).z } else { 0.0 };

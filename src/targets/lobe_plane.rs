@@ -25,9 +25,9 @@
 
 use super::sampling::{SAMPLING, SAMPLING_SEED};
 use super::simplex;
-use super::table::{Axis, Sample, Spacing, Table};
+use super::table::{Sample, Table};
 use super::{Choices, Error, Parameter, Progress, Recipe, Target, points};
-use crate::dataset::Dataset;
+use crate::dataset::{Axis, Dataset, Spacing};
 use crate::quadrature::Rule;
 use std::f64::consts::{FRAC_PI_3, PI};
 
@@ -201,7 +201,7 @@ pub fn generate(recipe: &Recipe, progress: Progress) -> Result<Dataset, Error> {
     let reach = if recipe.get("reach") == Some("4") { 4.0 } else { 2.0 };
     let by_angle = recipe.get("over") == Some(ANGLE);
     let other = match by_angle {
-        true => Axis { unit: "rad", domain: [0.0, FRAC_PI_3], ..Axis::unit(ANGLE) },
+        true => Axis { unit: "rad".into(), domain: [0.0, FRAC_PI_3], ..Axis::unit(ANGLE) },
         false => {
             Axis { domain: [0.25, 4.0], spacing: Spacing::Logarithmic, ..Axis::unit(DISTANCE) }
         }

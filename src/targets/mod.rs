@@ -93,7 +93,9 @@ pub fn targets() -> &'static [Target] {
 /// before saving it under another one.
 ///
 /// # Errors
-/// A ground truth whose estimated error is larger than its target allows.
+/// A ground truth whose estimated error is larger than its target allows; a claim that is none.
 pub fn generate(recipe: &Recipe, progress: Progress) -> Result<Dataset, Error> {
-    (recipe.target().generate)(recipe, progress)
+    let mut dataset = (recipe.target().generate)(recipe, progress)?;
+    recipe.claims.iter().try_for_each(|claim| dataset.claim(claim))?;
+    Ok(dataset)
 }

@@ -7,17 +7,21 @@ use std::path::Path;
 
 /// A target and a value for each of its parameters. As text it is RON:
 /// `(target: "dfg", masking: "correlated", alpha: "roughness^2", points: 64)`;
-/// parameters left out have their defaults.
+/// parameters left out have their defaults. `claims: ["y: scale >= bias"]` claims more of the outputs.
 #[derive(Clone, Debug)]
 pub struct Recipe {
     target: &'static Target,
     /// One a parameter, in the target's order, each among its choices.
     values: Vec<String>,
+    /// What is claimed of the outputs beside what the target does ([`crate::program::Claim`]).
+    pub claims: Vec<String>,
 }
 
 impl PartialEq for Recipe {
     fn eq(&self, other: &Recipe) -> bool {
-        self.target.name == other.target.name && self.values == other.values
+        let of =
+            |recipe: &Recipe| (recipe.target.name, recipe.values.clone(), recipe.claims.clone());
+        of(self) == of(other)
     }
 }
 
@@ -30,7 +34,7 @@ impl Recipe {
         let known = targets().iter().find(|known| known.name == target);
         let target = known.ok_or_else(|| Error::unknown_target(target))?;
         let values = target.parameters.iter().map(|p| p.default.to_owned()).collect();
-        Ok(Recipe { target, values })
+        Ok(Recipe { target, values, claims: Vec::new() })
     }
 
     /// Reads a recipe from RON; comments are allowed.
@@ -52,7 +56,12 @@ impl Recipe {
         };
         let mut recipe = Recipe::new(target)?;
         for (key, value) in fields.iter().filter(|(key, _)| !is_text(key, "target")) {
-            recipe.set(&plain(key), &plain(value))?;
+            match value {
+                Value::Seq(claims) if is_text(key, "claims") => {
+                    recipe.claims = claims.iter().map(plain).collect();
+                }
+                value => recipe.set(&plain(key), &plain(value))?,
+            }
         }
         Ok(recipe)
     }
@@ -119,6 +128,9 @@ impl fmt::Display for Recipe {
                 Choices::OneOf(_) => write!(f, ", {}: {value:?}", parameter.name)?,
                 Choices::Count { .. } => write!(f, ", {}: {value}", parameter.name)?,
             }
+        }
+        if !self.claims.is_empty() {
+            write!(f, ", claims: {:?}", self.claims)?;
         }
         write!(f, ")")
     }

@@ -4,9 +4,9 @@
 //! Definition: [`ggx::g1`] (Walter et al. 2007, eq. 34), over the width itself.
 
 use super::sampling::{SAMPLING, SAMPLING_SEED};
-use super::table::{Axis, Sample, Table};
+use super::table::{Sample, Table};
 use super::{Error, Progress, Recipe, Target, points};
-use crate::dataset::Dataset;
+use crate::dataset::{Axis, Dataset};
 use crate::microfacet::ggx;
 
 /// In place of n·v = 0, where g1 is 0 for all α but 0.

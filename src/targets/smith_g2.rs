@@ -5,9 +5,9 @@
 //! 98 and 99), over the width itself.
 
 use super::sampling::{SAMPLING, SAMPLING_SEED};
-use super::table::{Axis, Sample, Table};
+use super::table::{Sample, Table};
 use super::{Choices, Error, Parameter, Progress, Recipe, Target, points};
-use crate::dataset::Dataset;
+use crate::dataset::{Axis, Dataset};
 use crate::microfacet::ggx;
 
 /// In place of a cosine of 0, where g2 is 0 for all α but 0.

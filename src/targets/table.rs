@@ -2,76 +2,23 @@
 
 use super::sampling::{SAMPLING_SEED, Samples, Sampling, adaptive, jittered, low_discrepancy};
 use super::{Error, Progress, Recipe};
-use crate::dataset::{Column, Dataset, Split, combinations, grid_weights};
+use crate::dataset::{Axis, Dataset, Spacing, Split, combinations, grid_weights};
 use rayon::prelude::*;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
-/// An input of a target and where it is sampled.
-pub(super) struct Axis {
-    pub name: &'static str,
-    pub unit: &'static str,
-    pub domain: [f64; 2],
-    pub spacing: Spacing,
-    /// In place of the domain's low end, where the target has no value.
-    pub least: Option<f64>,
-}
-
-/// In what its samples are equidistant.
-#[derive(Clone, Copy, PartialEq)]
-pub(super) enum Spacing {
-    Linear,
-    Logarithmic,
-}
-
-impl Axis {
-    /// A dimensionless input on [0, 1].
-    pub(super) fn unit(name: &'static str) -> Axis {
-        Axis { name, unit: "1", domain: [0.0, 1.0], spacing: Spacing::Linear, least: None }
-    }
-
-    /// Where `u` of [0, 1] comes to lie.
-    pub(super) fn at(&self, u: f64) -> f32 {
-        let [low, high] = self.domain;
-        let value = match self.spacing {
-            Spacing::Linear => low + u * (high - low),
-            Spacing::Logarithmic => low * (high / low).powf(u),
-        };
-        value as f32
-    }
-
-    /// A coordinate whose differences are the axis' lengths.
-    fn measure(&self, value: f32) -> f64 {
-        match self.spacing {
-            Spacing::Linear => f64::from(value),
-            Spacing::Logarithmic => f64::from(value).ln(),
-        }
-    }
-
-    /// Centres of `points` equal cells.
-    fn cell_centres(&self, points: usize) -> Vec<f32> {
-        (0..points).map(|i| self.at((i as f64 + 0.5) / points as f64)).collect()
-    }
-
-    /// Equidistant nodes from end to end, none of them among the centres.
-    fn nodes(&self, intervals: usize) -> Vec<f32> {
-        let node = |k: usize| self.at(k as f64 / intervals as f64);
-        let mut nodes: Vec<f32> = (0..=intervals).map(node).collect();
-        if let Some(least) = self.least {
-            nodes[0] = least as f32;
-        }
-        nodes
-    }
-
-    /// The length each node stands for (trapezoidal rule), scaled to mean 1.
-    fn lengths(&self, nodes: &[f32]) -> Vec<f64> {
-        let last = nodes.len().saturating_sub(1);
-        let node = |index: usize| self.measure(nodes[index]);
-        let lengths: Vec<f64> = (0..nodes.len())
-            .map(|i| 0.5 * (node((i + 1).min(last)) - node(i.saturating_sub(1))))
-            .collect();
-        let mean = lengths.iter().sum::<f64>() / lengths.len() as f64;
-        lengths.iter().map(|length| length / mean).collect()
-    }
+/// The length each node stands for (trapezoidal rule), scaled to mean 1.
+fn lengths(axis: &Axis, nodes: &[f32]) -> Vec<f64> {
+    let last = nodes.len().saturating_sub(1);
+    // A coordinate whose differences are the axis' lengths.
+    let node = |index: usize| match axis.spacing {
+        Spacing::Linear => f64::from(nodes[index]),
+        Spacing::Logarithmic => f64::from(nodes[index]).ln(),
+    };
+    let lengths: Vec<f64> = (0..nodes.len())
+        .map(|i| 0.5 * (node((i + 1).min(last)) - node(i.saturating_sub(1))))
+        .collect();
+    let mean = lengths.iter().sum::<f64>() / lengths.len() as f64;
+    lengths.iter().map(|length| length / mean).collect()
 }
 
 /// About as many intervals as asked for, whose ends no centre of `points`
@@ -126,7 +73,7 @@ impl Table<'_> {
         let along = |points: &dyn Fn(&Axis) -> Vec<f32>| -> Vec<Vec<f32>> {
             self.axes.iter().map(points).collect()
         };
-        let centres = along(&|axis| axis.cell_centres(self.points));
+        let centres = along(&|axis| axis.centres(self.points));
         let nodes = along(&|axis| axis.nodes(intervals));
         let sampling = Sampling::of(self.recipe);
         let splits_of_points = if sampling == Sampling::Adaptive { 2 } else { 1 };
@@ -150,17 +97,12 @@ impl Table<'_> {
         };
         let (mut validation, validation_error) = self.grid(&nodes, &sample, &tick)?;
         validation.weights = self.area_weights(&nodes);
-        let inputs = self.axes.iter().map(|axis| Column {
-            name: axis.name.into(),
-            unit: axis.unit.into(),
-            domain: axis.domain,
-        });
         let error = power_of_ten_above(search_error.max(validation_error));
         let origin = format!("estimated error below {error:.0e} before rounding to f32");
         Ok(Dataset::of_splits(
             self.recipe.target().name,
             self.recipe.origin(origin),
-            inputs.collect(),
+            self.axes.iter().map(Axis::column).collect(),
             self.outputs.iter().copied(),
             [search, validation],
         )?)
@@ -230,7 +172,7 @@ impl Table<'_> {
     }
 
     fn area_weights(&self, along: &[Vec<f32>]) -> Vec<f32> {
-        let lengths = self.axes.iter().zip(along).map(|(axis, nodes)| axis.lengths(nodes));
+        let lengths = self.axes.iter().zip(along).map(|(axis, nodes)| lengths(axis, nodes));
         grid_weights(&lengths.collect::<Vec<_>>())
     }
 
@@ -270,19 +212,15 @@ fn power_of_ten_above(value: f64) -> f64 {
 mod tests {
     use super::*;
 
-    const DISTANCE: Axis = Axis {
-        name: "distance",
-        unit: "1",
-        domain: [0.25, 4.0],
-        spacing: Spacing::Logarithmic,
-        least: None,
-    };
+    fn distance() -> Axis {
+        Axis { domain: [0.25, 4.0], spacing: Spacing::Logarithmic, ..Axis::unit("distance") }
+    }
 
     #[test]
     fn nodes_are_never_cell_centres() {
         let axis = Axis::unit("x");
         for points in 1..=1024 {
-            let centres = axis.cell_centres(points);
+            let centres = axis.centres(points);
             for about in [20, 21, 100] {
                 let nodes = axis.nodes(intervals_between(points, about));
                 assert!(centres.iter().all(|centre| !nodes.contains(centre)), "{points}");
@@ -293,7 +231,7 @@ mod tests {
 
     #[test]
     fn edges_weigh_half_and_corners_a_quarter() {
-        let axes = [Axis::unit("x"), DISTANCE];
+        let axes = [Axis::unit("x"), distance()];
         let recipe = Recipe::new("dfg").unwrap();
         let table =
             Table { recipe: &recipe, axes: &axes, outputs: &[], points: 64, allowed_error: 0.0 };
@@ -308,7 +246,7 @@ mod tests {
 
     #[test]
     fn logarithmic_axes_have_equal_ratios() {
-        let nodes = DISTANCE.nodes(4);
+        let nodes = distance().nodes(4);
         assert_eq!(nodes, [0.25, 0.5, 1.0, 2.0, 4.0]);
     }
 }

@@ -22,7 +22,7 @@ struct Page<'a> {
 
 impl Page<'_> {
     fn output(&self, output: usize) -> &str {
-        self.names.outputs.get(output).map_or("scale + bias", String::as_str)
+        &self.names.outputs[output]
     }
 
     fn input<X: std::fmt::Debug>(&self, input: &[X]) -> String {
@@ -36,10 +36,7 @@ impl Page<'_> {
 
     fn claims(&self) -> String {
         let findings = &self.examination.verdict.findings;
-        let claim = |finding: &Finding| match finding.f0(self.names) {
-            Some(f0) => format!("{} (f0 = {f0})", finding.text(self.names)),
-            None => finding.text(self.names),
-        };
+        let claim = |finding: &Finding| finding.text(self.names) + &finding.given();
         let width = findings.iter().map(|finding| claim(finding).chars().count()).max();
         // A width in a format has 16 bits.
         let width = width.unwrap_or(0).min(60);

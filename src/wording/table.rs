@@ -2,7 +2,6 @@
 
 use crate::fit::Measure;
 use crate::search::{Front, FrontMember, Published};
-use crate::stability::ClaimRecord;
 use std::fmt::Write;
 
 /// The front by rising cost, each member's formula under its numbers, incumbents where their cost
@@ -66,14 +65,9 @@ fn statuses(member: &FrontMember) -> String {
     if !verdict.is_judged() {
         return String::new();
     }
-    let topics = [
-        ("finite", Some(&verdict.finite)),
-        ("range", verdict.range.as_ref()),
-        ("energy", verdict.energy.as_ref()),
-    ];
+    let topics = verdict.topics();
     let of = |wanted: &str| -> Vec<&str> {
-        let has = |claim: &ClaimRecord| claim.exact.status == wanted;
-        topics.iter().filter(|(_, claim)| claim.is_some_and(has)).map(|(topic, _)| *topic).collect()
+        topics.iter().filter(|(_, claim)| claim.exact.status == wanted).map(|(t, _)| *t).collect()
     };
     let words = ["proved", "open", "refuted"].map(|status| (status, of(status)));
     let said = words.iter().filter(|(_, topics)| !topics.is_empty());

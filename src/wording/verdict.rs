@@ -8,15 +8,8 @@ pub fn verdict_lines(verdict: &VerdictRecord) -> Vec<String> {
     if !verdict.is_judged() {
         return vec!["finite on every sample of both splits".to_owned()];
     }
-    let topics = [
-        ("finite", Some(&verdict.finite)),
-        ("range", verdict.range.as_ref()),
-        ("energy", verdict.energy.as_ref()),
-    ];
-    topics
-        .into_iter()
-        .filter_map(|(topic, claim)| Some(format!("{topic}: {}", claim_text(claim?))))
-        .collect()
+    let topics = verdict.topics().into_iter();
+    topics.map(|(topic, claim)| format!("{topic}: {}", claim_text(claim))).collect()
 }
 
 /// What became of a claim, in the interpreter's arithmetic and on GPUs where that differs.

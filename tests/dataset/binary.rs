@@ -74,6 +74,7 @@ fn hash_depends_on_all_that_makes_the_data_and_on_nothing_else() {
     let original = sample().hash();
     let elsewhere = Dataset { origin: Origin::Import { file: "table.csv".into() }, ..sample() };
     assert_eq!(elsewhere.hash(), original);
+    assert_eq!(Dataset { claims: vec![], ..sample() }.hash(), original);
     let mut value = sample();
     value.search.columns[3][3] = 0.81;
     let mut weight = sample();
@@ -231,6 +232,7 @@ fn datasets() -> impl Strategy<Value = Dataset> {
                     origin: Origin::Formula { text: format!("({name:?})") },
                     inputs: (0..inputs).map(described).collect(),
                     outputs: (inputs..columns).map(described).collect(),
+                    claims: vec![format!("all: column_{inputs} >= 0")],
                     search,
                     validation,
                 }

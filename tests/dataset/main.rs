@@ -17,6 +17,7 @@ pub fn sample() -> Dataset {
         origin: Origin::Target { recipe: "(target: \"none\")".into(), error: "none".into() },
         inputs: vec![column("n_dot_v"), column("roughness")],
         outputs: vec![column("scale"), column("bias")],
+        claims: vec!["energy: f0*scale + bias <= 1 for f0 in 0..1".into(), "y: scale >= 0".into()],
         search: Split {
             columns: vec![
                 vec![0.0, 0.0, 1.0, 1.0],

@@ -5,7 +5,7 @@ use lgp::dataset::Dataset;
 use lgp::fit::Measure;
 use lgp::program::{Names, parse};
 use lgp::search::{Front, FrontMember};
-use lgp::stability::{Questions, Status, StatusRecord, Topic, Verdict, VerdictRecord};
+use lgp::stability::{Questions, Status, StatusRecord, Verdict, VerdictRecord};
 use std::path::Path;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
@@ -13,7 +13,7 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 #[test]
 fn of_the_committed_front_all_but_little_is_decided() {
     let dataset = Dataset::load(Path::new("datasets/dfg.bin")).unwrap();
-    let questions = Questions::of(&dataset.inputs, &dataset.outputs);
+    let questions = Questions::of(&dataset.inputs, &dataset.outputs, &dataset.claims);
     assert_eq!(questions.ranges, [[0.0, 1.0]; 2]);
     let text = std::fs::read_to_string("tests/fixtures/dfg/front.json").unwrap();
     let members: serde_json::Value = serde_json::from_str(&text).unwrap();
@@ -22,14 +22,14 @@ fn of_the_committed_front_all_but_little_is_decided() {
     for member in members {
         let program = parse(member["formula"].as_str().unwrap(), &dataset.names()).unwrap();
         let verdict = Verdict::of(&program, &questions);
-        let finite = verdict.worst(Topic::Finite).unwrap();
+        let finite = verdict.worst("finite").unwrap();
         assert_eq!((&finite.exact, &finite.gpu), (&Status::Proved, &Status::Proved));
         let is_open = |status: &Status| matches!(status, Status::Open { .. });
         open += verdict.findings.iter().filter(|f| is_open(&f.exact) || is_open(&f.gpu)).count();
         for finding in &verdict.findings {
             let Status::Refuted { input, value } = &finding.exact else { continue };
             assert_eq!(input.len(), 2);
-            assert!(finding.claim.excess(*value, questions.slack) > 0.0);
+            assert!(finding.property.excess(*value, questions.slack) > 0.0);
         }
     }
     assert!(open * 10 <= members.len(), "{open} claims open on {} formulas", members.len());
@@ -40,11 +40,14 @@ fn of_the_committed_front_all_but_little_is_decided() {
 fn an_energy_of_exactly_one_is_not_refuted() {
     let dataset = Dataset::load(Path::new("datasets/dfg.bin")).unwrap();
     let program = parse("bias = n_dot_v; scale = 1 - n_dot_v", &dataset.names()).unwrap();
-    let questions = Questions { slack: 0.0, ..Questions::of(&dataset.inputs, &dataset.outputs) };
-    let energy = Verdict::of(&program, &questions).worst(Topic::Energy).unwrap().clone();
+    let questions = Questions {
+        slack: 0.0,
+        ..Questions::of(&dataset.inputs, &dataset.outputs, &dataset.claims)
+    };
+    let energy = Verdict::of(&program, &questions).worst("energy").unwrap().clone();
     assert!(!matches!(energy.exact, Status::Refuted { .. }), "{energy:?}");
     let usual = Questions { slack: 1e-5, ..questions };
-    let energy = Verdict::of(&program, &usual).worst(Topic::Energy).unwrap().clone();
+    let energy = Verdict::of(&program, &usual).worst("energy").unwrap().clone();
     assert_eq!((energy.exact, energy.gpu), (Status::Proved, Status::Proved));
 }
 
@@ -63,13 +66,13 @@ fn unjudged() -> (Front, Questions, Names) {
     let member =
         |text: &&str| FrontMember::new(parse(text, &names).unwrap(), &dataset, &profile, &names);
     let members = formulas.iter().map(member).collect();
-    let questions = Questions::of(&dataset.inputs, &dataset.outputs);
+    let questions = Questions::of(&dataset.inputs, &dataset.outputs, &dataset.claims);
     (Front { measure: Measure::default(), members }, questions, names)
 }
 
 fn statuses(verdict: &VerdictRecord) -> Vec<&StatusRecord> {
-    let claims = [Some(&verdict.finite), verdict.range.as_ref(), verdict.energy.as_ref()];
-    claims.into_iter().flatten().flat_map(|claim| claim.gpu.iter().chain([&claim.exact])).collect()
+    let claims = verdict.topics().into_iter().map(|(_, claim)| claim);
+    claims.flat_map(|claim| claim.gpu.iter().chain([&claim.exact])).collect()
 }
 
 #[test]

@@ -62,7 +62,7 @@ fn denormals_are_kept_and_flushed() {
     let questions = Questions {
         domain: domain.to_vec(),
         ranges: vec![[f64::NEG_INFINITY, f64::INFINITY]],
-        energy: None,
+        claims: vec![],
         slack: 1e-5,
     };
     let examination = Examination::of(&guarded, &questions, 0.01);

@@ -3,7 +3,7 @@
 use lgp::dataset::{Dataset, Incumbent, incumbents_for};
 use lgp::num::Interval;
 use lgp::program::{Names, parse};
-use lgp::stability::{Bound, Claim, Limits, Rounding, Status, prove};
+use lgp::stability::{Bound, Limits, Property, Rounding, Status, prove};
 use std::path::Path;
 
 fn incumbent(name: &str) -> Incumbent {
@@ -18,7 +18,7 @@ fn claim(name: &str, expression: &str, bound: Bound, rounding: Rounding) -> Stat
     let names = Names::new(["n_dot_v", "roughness", "f0"], ["scale", "bias", "claimed"]);
     let program = parse(&text, &names).unwrap();
     let domain = [Interval::new(0.0, 1.0); 3];
-    prove(&program, &domain, &[Claim::of(2, bound)], &Limits::new(rounding)).remove(0)
+    prove(&program, &domain, &[Property::of(2, bound)], &Limits::new(rounding)).remove(0)
 }
 
 /// The least excess that a refutation must show.
@@ -28,7 +28,7 @@ fn assert_refuted(name: &str, expression: &str, bound: Bound, least: f64) {
         let Status::Refuted { input, value } = status else {
             panic!("{name}: {expression}: {status:?}")
         };
-        let excess = Claim::of(0, bound).excess(value, 0.0);
+        let excess = Property::of(0, bound).excess(value, 0.0);
         assert!(excess >= least, "{name}: {expression} is {value} at {input:?}");
     }
 }

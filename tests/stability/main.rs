@@ -1,5 +1,6 @@
 //! Verdicts: bounds that no value leaves, proofs and counterexamples.
 
+mod claims;
 mod enclosure;
 mod front;
 mod half;

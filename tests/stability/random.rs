@@ -2,8 +2,8 @@
 
 use lgp::num::Interval;
 use lgp::op::Op;
-use lgp::program::{Arg, Draft, Names, Program, parse};
-use lgp::stability::{Bound, Claim, Examination, Limits, Questions, Rounding, Status, prove};
+use lgp::program::{Arg, Claim, Draft, Names, Program, parse};
+use lgp::stability::{Bound, Examination, Limits, Property, Questions, Rounding, Status, prove};
 use lgp::wording::examination;
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
@@ -42,6 +42,12 @@ fn random_side(rng: &mut ChaCha8Rng) -> Interval {
     Interval::new(a.min(b), a.max(b))
 }
 
+const CLAIMS: [&str; 3] = [
+    "energy: f0*scale + bias <= 1 for f0 in 0..1",
+    "order: scale >= bias*exp2(k) for k in -3..-1",
+    "sum: scale*scale + bias <= 1",
+];
+
 #[test]
 fn an_examination_of_anything_is_text_and_json() {
     let mut rng = ChaCha8Rng::seed_from_u64(7);
@@ -49,12 +55,13 @@ fn an_examination_of_anything_is_text_and_json() {
         let program = random_program(&mut rng);
         let domain: Vec<Interval> = (0..program.inputs).map(|_| random_side(&mut rng)).collect();
         let ranges = vec![[0.0, 1.0], [f64::NEG_INFINITY, 1e-3]];
-        let energy = rng.random_bool(0.5).then_some([0, 1]);
-        let questions = Questions { domain, ranges, energy, slack: 1e-5 };
-        let bound = [1e-6, 1e-2, 1e3][rng.random_range(0..3)];
-        let examination = Examination::of(&program, &questions, bound);
         let names = ["a", "b", "c"][..program.inputs].iter().copied();
         let names = Names::new(names, ["scale", "bias"]);
+        let some = CLAIMS[..rng.random_range(0..=CLAIMS.len())].iter();
+        let claims = some.map(|text| Claim::parse(text, &names).unwrap()).collect();
+        let questions = Questions { domain, ranges, claims, slack: 1e-5 };
+        let bound = [1e-6, 1e-2, 1e3][rng.random_range(0..3)];
+        let examination = Examination::of(&program, &questions, bound);
         let text = examination::text(&examination, &names);
         assert!(text.contains("scale finite") && text.contains("smoothness"), "{text}");
         assert!(examination::json(&examination, &names)["claims"].is_array());
@@ -69,7 +76,7 @@ fn what_an_unfused_product_loses_is_said_of_the_formula_as_written() {
     let questions = Questions {
         domain: vec![Interval::new(0.01, 1.0), Interval::new(0.0, 1.0)],
         ranges: vec![[f64::NEG_INFINITY, f64::INFINITY]],
-        energy: None,
+        claims: vec![],
         slack: 1e-5,
     };
     let examination = Examination::of(&program, &questions, 1e-2);
@@ -99,7 +106,8 @@ fn many_inputs_are_looked_at_in_bounded_work() {
         let most = inputs as f64;
         let bounds = [Bound::Finite, Bound::AtMost(1.01 * most), Bound::AtMost(0.99 * most)];
         let claims = [bounds.as_slice(), &[Bound::AtLeast(0.01)]].concat();
-        let claims: Vec<Claim> = claims.into_iter().map(|bound| Claim::of(0, bound)).collect();
+        let claims: Vec<Property> =
+            claims.into_iter().map(|bound| Property::of(0, bound)).collect();
         let limits = Limits { boxes: 100, ..Limits::new(Rounding::Exact) };
         let found = prove(&program, &domain, &claims, &limits);
         assert_eq!(found[..2], [Status::Proved, Status::Proved], "{inputs} inputs");
@@ -111,7 +119,7 @@ fn many_inputs_are_looked_at_in_bounded_work() {
     let questions = Questions {
         domain: vec![Interval::new(0.0, 1.0); 40],
         ranges: vec![[0.0, 1.0]],
-        energy: None,
+        claims: vec![],
         slack: 1e-5,
     };
     let examination = Examination::of(&program, &questions, 1e-2);

@@ -4,8 +4,8 @@ use lgp::eval::Half;
 use lgp::num::Interval;
 use lgp::program::{Names, Program, parse};
 use lgp::stability::{
-    Bound, Cause, Claim, Limits, Loss, Precision, Rounding, Status, half_error, must_stay_single,
-    prove,
+    Bound, Cause, Limits, Loss, Precision, Property, Rounding, Status, half_error,
+    must_stay_single, prove,
 };
 
 /// A row: inputs by name, the reference (none where it is words), and what single and half gave
@@ -128,7 +128,7 @@ fn what_the_table_has_wrong_is_found_and_named_and_nothing_else() {
     for row in rows() {
         let Some(program) = program(&row) else { continue };
         let domain = domain(&row);
-        let claim = [Claim::of(0, Bound::Finite)];
+        let claim = [Property::of(0, Bound::Finite)];
         let finite = prove(&program, &domain, &claim, &Limits::new(Rounding::Exact)).remove(0);
         let refuted = matches!(finite, Status::Refuted { .. });
         let single = Precision::single(&program, &domain);
@@ -169,7 +169,7 @@ fn what_is_wrong_at_a_point_is_found_in_its_neighbourhood() {
         }
         let around = |&(_, x): &(String, f32)| Interval::new(x - x.abs() * 1e-6, x);
         let domain: Vec<Interval> = row.inputs.iter().map(around).collect();
-        let claim = [Claim::of(0, Bound::Finite)];
+        let claim = [Property::of(0, Bound::Finite)];
         let finite = prove(&program, &domain, &claim, &Limits::new(Rounding::Exact)).remove(0);
         let worst = Precision::single(&program, &domain);
         let loses = worst.relative.as_ref().is_some_and(|loss| loss.relative() > WRONG[0]);
@@ -184,7 +184,7 @@ fn powers_of_zero_and_of_what_is_just_below() {
     let program = parse("f = pow(x, y)", &names).unwrap();
     let finite = |x: [f32; 2], y: [f32; 2]| {
         let domain = [x, y].map(|[low, high]| Interval::new(low, high));
-        let claim = [Claim::of(0, Bound::Finite)];
+        let claim = [Property::of(0, Bound::Finite)];
         prove(&program, &domain, &claim, &Limits::new(Rounding::Gpu)).remove(0)
     };
     assert!(matches!(finite([0.0, 0.0], [0.0, 0.0]), Status::Refuted { .. }));

@@ -8,11 +8,13 @@
 //! # Ok::<(), lgp::program::ParseError>(())
 //! ```
 
+mod claim;
 mod excerpt;
 mod lex;
 mod parse;
 mod print;
 
+pub use claim::{ALWAYS_ASKED, Claim};
 pub(crate) use excerpt::{place, plain, pointed};
 pub use parse::{
     FreeConstant, MAX_FORMULA, ParseError, Parsed, Scope, parse, parse_open, parse_template,
