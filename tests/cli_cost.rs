@@ -1,16 +1,13 @@
 //! `lgp cost` on the real command line.
 
-use assert_cmd::Command;
+mod command;
+
+use command::{lgp_here, text};
 use serde_json::Value;
 use std::process::Output;
 
 fn cost(args: &[&str]) -> Output {
-    let mut command = Command::cargo_bin("lgp").expect("the program is built");
-    command.arg("cost").args(args).output().expect("it runs")
-}
-
-fn text(bytes: &[u8]) -> String {
-    String::from_utf8_lossy(bytes).into_owned()
+    lgp_here(&[&["cost"][..], args].concat())
 }
 
 fn json(args: &[&str]) -> Vec<Value> {

@@ -1,26 +1,14 @@
 //! What a search leaves in its folder, whatever is there already and whatever becomes of the disk.
 
-use assert_cmd::cargo::CommandCargoExt;
+mod command;
+
+use command::{command, lgp, text};
 use std::path::{Path, PathBuf};
 use std::process::{Child, Command, Output, Stdio};
 use std::time::{Duration, Instant};
 use tempfile::TempDir;
 
 const SHORT: [&str; 6] = ["search", "d.bin", "--generations", "2", "--islands", "1"];
-
-fn lgp(folder: &Path, args: &[&str]) -> Output {
-    command(folder, args).output().expect("it runs")
-}
-
-fn command(folder: &Path, args: &[&str]) -> Command {
-    let mut command = Command::cargo_bin("lgp").expect("the program is built");
-    command.current_dir(folder).args(args);
-    command
-}
-
-fn text(bytes: &[u8]) -> String {
-    String::from_utf8_lossy(bytes).into_owned()
-}
 
 fn succeed(folder: &Path, args: &[&str]) -> Output {
     let output = lgp(folder, args);
@@ -218,7 +206,7 @@ fn signals_that_end_a_process_keep_what_was_found() {
 fn where_hangups_are_ignored_other_signals_are_heard() {
     let folder = folder();
     let here = folder.path();
-    let program = Command::cargo_bin("lgp").unwrap().get_program().to_owned();
+    let program = command(Path::new("."), &[]).get_program().to_owned();
     let script = format!(
         "trap '' HUP; exec '{}' search d.bin --time 60s --islands 1 --out run",
         program.display()
@@ -242,7 +230,7 @@ fn where_hangups_are_ignored_other_signals_are_heard() {
 fn a_front_is_shown_though_the_disk_is_full() {
     let folder = folder();
     let here = folder.path();
-    let program = Command::cargo_bin("lgp").unwrap().get_program().to_owned();
+    let program = command(Path::new("."), &[]).get_program().to_owned();
     let script = format!(
         "trap '' XFSZ; ulimit -f 1; exec '{}' {} --out full",
         program.display(),
@@ -294,7 +282,7 @@ fn a_small_disk_fills_up_at_any_file() {
     let folder = folder();
     let here = folder.path();
     std::fs::create_dir(here.join("disk")).unwrap();
-    let program = Command::cargo_bin("lgp").unwrap().get_program().to_owned();
+    let program = command(Path::new("."), &[]).get_program().to_owned();
     let script = format!(
         "mount -t tmpfs -o size=$SIZE tmpfs disk; '{0}' {1} --out disk/run; echo code $?; '{0}' front disk/run; \
          echo code $?; mount -o remount,size=8m disk; '{0}' search --resume --generations 3 --out disk/run; \

@@ -1,25 +1,11 @@
 //! `merge`, `analyze` and `emit --half` on the real command line.
 
-use assert_cmd::Command;
+mod command;
+
+use command::{lgp, succeed, text};
 use serde_json::Value;
 use std::path::Path;
-use std::process::Output;
 use tempfile::TempDir;
-
-fn lgp(folder: &Path, args: &[&str]) -> Output {
-    let mut command = Command::cargo_bin("lgp").expect("the program is built");
-    command.current_dir(folder).args(args).output().expect("it runs")
-}
-
-fn text(bytes: &[u8]) -> String {
-    String::from_utf8_lossy(bytes).into_owned()
-}
-
-fn succeed(folder: &Path, args: &[&str]) -> String {
-    let output = lgp(folder, args);
-    assert!(output.status.success(), "{args:?}: {}", text(&output.stderr));
-    text(&output.stdout)
-}
 
 /// A table of `max(x, y)²`, and short searches on it with seeds 1, 2 and 3 in `run1` and so on.
 fn searched() -> TempDir {

@@ -1,25 +1,11 @@
 //! Scenes on the real command line.
 
-use assert_cmd::Command;
+mod command;
+
+use command::{lgp, succeed, text};
 use serde_json::Value;
 use std::path::{Path, PathBuf};
-use std::process::Output;
 use tempfile::TempDir;
-
-fn lgp(folder: &Path, args: &[&str]) -> Output {
-    let mut command = Command::cargo_bin("lgp").expect("the program is built");
-    command.current_dir(folder).args(args).output().expect("it runs")
-}
-
-fn text(bytes: &[u8]) -> String {
-    String::from_utf8_lossy(bytes).into_owned()
-}
-
-fn done(folder: &Path, args: &[&str]) -> String {
-    let output = lgp(folder, args);
-    assert!(output.status.success(), "{args:?}: {}", text(&output.stderr));
-    text(&output.stdout)
-}
 
 fn refused(folder: &Path, args: &[&str], expected: &str) {
     let output = lgp(folder, args);
@@ -54,27 +40,27 @@ fn a_run_on_a_scene_knows_it() {
     let folder = project();
     let here = folder.path();
     let search = [&SHORT[..], &["--scene", "dielectric"]].concat();
-    let shown = done(here, &search);
+    let shown = succeed(here, &search);
     for expected in ["env_brdf_nonmetal: ", "karis_2014: ", "float dfg_dielectric_specular("] {
         assert!(shown.contains(expected), "{expected} is not in\n{shown}");
     }
     let run = here.join("runs/dfg_dielectric");
-    let snippet = done(here, &["emit", run.to_str().unwrap(), "--lang", "glsl"]);
+    let snippet = succeed(here, &["emit", run.to_str().unwrap(), "--lang", "glsl"]);
     let scene = "// scene: dielectric: f0 = 0.04; specular = f0*scale + bias";
     assert!(snippet.contains(scene), "{snippet}");
     std::fs::write(here.join("mine.glsl"), &snippet).unwrap();
     let verify = ["verify", "mine.glsl", "dfg.bin", "--scene", "dielectric", "--max-error", "0.5"];
-    done(here, &verify);
-    let table = done(here, &["front", run.to_str().unwrap()]);
+    succeed(here, &verify);
+    let table = succeed(here, &["front", run.to_str().unwrap()]);
     assert!(table.contains("env_brdf_nonmetal: "), "{table}");
 
     // The file may change: the run has the scene as it was.
     std::fs::write(here.join("scenes/dielectric.ron"), "(ranges: {\"roughness\": (0, 0.5)})")
         .unwrap();
-    assert_eq!(done(here, &["front", run.to_str().unwrap()]), table);
+    assert_eq!(succeed(here, &["front", run.to_str().unwrap()]), table);
     let changed = "--scene dielectric, not dielectric as it is now";
     refused(here, &[&search[..], &["--resume"]].concat(), changed);
-    done(here, &["search", "--resume", "--generations", "9", "--out", "runs/dfg_dielectric"]);
+    succeed(here, &["search", "--resume", "--generations", "9", "--out", "runs/dfg_dielectric"]);
 }
 
 #[test]
@@ -83,7 +69,7 @@ fn a_scenes_run_is_repeated_and_resumed() {
     let here = folder.path();
     let run = |options: &[&str]| {
         let common = ["search", "dfg.bin", "--quiet", "--scene", "satin", "--outputs", "bias"];
-        done(here, &[&common[..], options].concat());
+        succeed(here, &[&common[..], options].concat());
     };
     let front = |name: &str| std::fs::read(here.join(name).join("front.json")).unwrap();
     run(&["--generations", "3", "--out", "one", "--threads", "1"]);
@@ -98,9 +84,12 @@ fn a_scenes_run_is_repeated_and_resumed() {
 fn runs_on_different_scenes_have_no_union() {
     let folder = project();
     let here = folder.path();
-    done(here, &[&SHORT[..], &["--scene", "satin", "--out", "a"]].concat());
-    done(here, &[&SHORT[..], &["--out", "b"]].concat());
-    done(here, &[&SHORT[..], &["--seed", "2", "--require", "range=-1..2", "--out", "c"]].concat());
+    succeed(here, &[&SHORT[..], &["--scene", "satin", "--out", "a"]].concat());
+    succeed(here, &[&SHORT[..], &["--out", "b"]].concat());
+    succeed(
+        here,
+        &[&SHORT[..], &["--seed", "2", "--require", "range=-1..2", "--out", "c"]].concat(),
+    );
     refused(
         here,
         &["merge", "a", "b", "--out", "all"],
@@ -108,8 +97,8 @@ fn runs_on_different_scenes_have_no_union() {
     );
     refused(here, &["merge", "b", "c", "--out", "all"], "requirements: none and range=-1..2");
     assert!(!here.join("all").exists());
-    done(here, &["merge", "a", "a", "--out", "all"]);
-    let table = done(here, &["front", "all"]);
+    succeed(here, &["merge", "a", "a", "--out", "all"]);
+    let table = succeed(here, &["front", "all"]);
     assert!(table.contains("materialx_rational: "), "{table}");
 }
 
@@ -118,7 +107,7 @@ fn a_formula_is_scored_on_a_scene() {
     let folder = project();
     let score = |formula: &str| {
         let eval = ["eval", formula, "dfg.bin", "--scene", "dielectric", "--json"];
-        serde_json::from_str::<Value>(&done(folder.path(), &eval)).unwrap()
+        serde_json::from_str::<Value>(&succeed(folder.path(), &eval)).unwrap()
     };
     let direct = score("specular = 0.04 - 0.04*roughness + 0.5*n_dot_v");
     let combined = score("scale = 1 - roughness; bias = 0.5*n_dot_v");
@@ -139,13 +128,13 @@ fn tiers_are_afforded_or_reported() {
     };
     let search = [&SHORT[..], &["--scene", "tiered.ron", "--outputs", "bias"]].concat();
     scene("\"low\": (max_cost: Some(3)), \"high\": (max_cost: Some(9), max_error: Some(0.1))");
-    let shown = done(here, &search);
+    let shown = succeed(here, &search);
     assert!(shown.contains("low (at most 3 cycles): "), "{shown}");
     let emitted =
-        done(here, &["emit", "runs/dfg_tiered", "--lang", "hlsl", "--tier", "low", "--json"]);
+        succeed(here, &["emit", "runs/dfg_tiered", "--lang", "hlsl", "--tier", "low", "--json"]);
     let emitted: Value = serde_json::from_str(&emitted).unwrap();
     assert!(emitted["cost"].as_f64().unwrap() <= 3.0);
-    let members = done(here, &["front", "runs/dfg_tiered", "--json"]);
+    let members = succeed(here, &["front", "runs/dfg_tiered", "--json"]);
     let members: Vec<Value> = serde_json::from_str(&members).unwrap();
     assert!(members.iter().all(|member| member["cost"].as_f64().unwrap() <= 9.0));
     let unknown = lgp(here, &["emit", "runs/dfg_tiered", "--lang", "hlsl", "--tier", "lwo"]);
@@ -198,7 +187,7 @@ fn a_scene_is_made_of_logged_pixels() {
         .collect();
     let log = format!("n_dot_v,roughness,f0,weight\n{pixels}");
     std::fs::write(here.join("frame.csv"), log).unwrap();
-    done(here, &["scene", "from", "frame.csv", "--bins", "4"]);
+    succeed(here, &["scene", "from", "frame.csv", "--bins", "4"]);
     let text = std::fs::read_to_string(here.join("frame.ron")).unwrap();
     for part in ["\"f0\": 0.04", "\"n_dot_v\",", "over: ", "300.0"] {
         assert!(text.contains(part), "{part} is not in\n{text}");
@@ -209,12 +198,12 @@ fn a_scene_is_made_of_logged_pixels() {
     let used =
         text.replacen("fixed:", "outputs: {\"specular\": \"f0*scale + bias\"},\n    fixed:", 1);
     std::fs::write(here.join("frame.ron"), used).unwrap();
-    done(here, &[&SHORT[..], &["--scene", "frame.ron"]].concat());
+    succeed(here, &[&SHORT[..], &["--scene", "frame.ron"]].concat());
     let run = std::fs::read_to_string(here.join("runs/dfg_frame/run.ron")).unwrap();
     assert!(run.contains("measure: Weighted"), "{run}");
 
     let apart = ["scene", "from", "frame.csv", "--separate", "--inputs", "n_dot_v,roughness"];
-    done(here, &[&apart[..], &["-o", "apart.ron"]].concat());
+    succeed(here, &[&apart[..], &["-o", "apart.ron"]].concat());
     let text = std::fs::read_to_string(here.join("apart.ron")).unwrap();
     assert_eq!(text.matches("counts:").count(), 2, "{text}");
     refused(here, &["scene", "from", "frame.csv", "--weight", "wieght"], "did you mean `weight`?");
@@ -232,7 +221,7 @@ fn a_formula_is_cut_to_a_scene() {
     // The maximum never acts where roughness is at least .3, but on the whole domain it does.
     let formula = "bias = max(0.001, 1.1 - roughness)*saturate(0.9 - n_dot_v) + 0.001*n_dot_v";
     let specialize = ["specialize", formula, "dfg.bin", "--scene", "satin", "--outputs", "bias"];
-    let json = done(here, &[&specialize[..], &["--json"]].concat());
+    let json = succeed(here, &[&specialize[..], &["--json"]].concat());
     let found: Value = serde_json::from_str(&json).unwrap();
     let steps = found["steps"].as_array().unwrap();
     let change = |step: usize| steps[step]["change"].as_str().unwrap();
@@ -249,9 +238,9 @@ fn a_formula_is_cut_to_a_scene() {
     for pair in front.windows(2) {
         assert!(cost(&pair[0]) < cost(&pair[1]) && error(&pair[0]) > error(&pair[1]), "{pair:?}");
     }
-    let table = done(here, &specialize);
+    let table = succeed(here, &specialize);
     assert!(table.contains("max dropped: it never acts (proved)"), "{table}");
-    let limited = done(here, &[&specialize[..], &["--json", "--max-error", "0.05"]].concat());
+    let limited = succeed(here, &[&specialize[..], &["--json", "--max-error", "0.05"]].concat());
     let limited: Value = serde_json::from_str(&limited).unwrap();
     let members = limited["front"].as_array().unwrap();
     assert!(!members.is_empty() && members.iter().all(|member| error(member) <= 0.05));
@@ -267,12 +256,18 @@ fn a_formula_is_cut_to_a_scene() {
 fn a_runs_front_is_cut_to_a_scene() {
     let folder = project();
     let here = folder.path();
-    done(here, &[&SHORT[..], &["--max-cost", "4", "--outputs", "bias", "--out", "run"]].concat());
+    succeed(
+        here,
+        &[&SHORT[..], &["--max-cost", "4", "--outputs", "bias", "--out", "run"]].concat(),
+    );
     let cut = ["specialize", "run", "dfg.bin", "--scene", "satin", "--outputs", "bias"];
-    let json = done(here, &[&cut[..], &["--json"]].concat());
+    let json = succeed(here, &[&cut[..], &["--json"]].concat());
     let found: Value = serde_json::from_str(&json).unwrap();
     assert!(found["front"].as_array().unwrap().len() > 2);
-    done(here, &[&SHORT[..], &["--max-cost", "4", "--scene", "satin", "--out", "satin"]].concat());
+    succeed(
+        here,
+        &[&SHORT[..], &["--max-cost", "4", "--scene", "satin", "--out", "satin"]].concat(),
+    );
     let again = ["specialize", "satin", "dfg.bin", "--scene", "satin"];
     refused(here, &again, "give a run on the whole dataset");
 }

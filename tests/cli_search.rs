@@ -1,6 +1,8 @@
 //! `search`, `front`, `emit` and `eval` on the real command line.
 
-use assert_cmd::Command;
+mod command;
+
+use command::{lgp, text};
 use serde_json::Value;
 use std::path::{Path, PathBuf};
 use std::process::Output;
@@ -8,15 +10,6 @@ use tempfile::TempDir;
 
 fn datasets() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("datasets")
-}
-
-fn lgp(folder: &Path, args: &[&str]) -> Output {
-    let mut command = Command::cargo_bin("lgp").expect("the program is built");
-    command.current_dir(folder).args(args).output().expect("it runs")
-}
-
-fn text(bytes: &[u8]) -> String {
-    String::from_utf8_lossy(bytes).into_owned()
 }
 
 /// A copy of the DFG data with its incumbents, and a short run on it.

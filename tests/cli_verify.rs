@@ -1,6 +1,8 @@
 //! `lgp verify` on the real command line: snippets as they are, and with what can go wrong in them.
 
-use assert_cmd::Command;
+mod command;
+
+use command::{command, succeed, text};
 use lgp::dataset::Dataset;
 use lgp::emit::{Language, read_back};
 use serde_json::Value;
@@ -16,13 +18,9 @@ fn data() -> PathBuf {
 }
 
 fn verify(snippet: &Path, max_error: &str, more: &[&str]) -> Output {
-    let mut command = Command::cargo_bin("lgp").expect("the program is built");
-    command.arg("verify").args([snippet, &data()]).args(["--max-error", max_error]).args(more);
+    let mut command = command(repository(), &["verify"]);
+    command.args([snippet, &data()]).args(["--max-error", max_error]).args(more);
     command.output().expect("it runs")
-}
-
-fn text(bytes: &[u8]) -> String {
-    String::from_utf8_lossy(bytes).into_owned()
 }
 
 /// Some members of a front in each language that can be read back, each in a file of the folder.
@@ -181,11 +179,7 @@ fn a_clamp_may_have_any_bounds() {
 }
 
 fn emitted(run: &str, language: &str, more: &[&str]) -> String {
-    let mut command = Command::cargo_bin("lgp").expect("the program is built");
-    command.args(["emit", run, "--lang", language]).args(more).current_dir(repository());
-    let output = command.output().expect("it runs");
-    assert!(output.status.success(), "{}", text(&output.stderr));
-    text(&output.stdout)
+    succeed(repository(), &[&["emit", run, "--lang", language][..], more].concat())
 }
 
 const LANGUAGES: [(&str, &str); 4] =

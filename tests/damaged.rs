@@ -1,16 +1,12 @@
 //! Whatever the files of a run's folder hold, a command that reads them ends with a message, or does what it is for.
 
-use assert_cmd::cargo::CommandCargoExt;
+mod command;
+
+use command::{lgp, succeed};
 use lgp::emit::{self, Language, Snippet};
 use lgp::run::{Census, RecordError, load_front, load_run, merge};
 use std::path::{Path, PathBuf};
-use std::process::{Command, Output};
 use tempfile::TempDir;
-
-fn lgp(folder: &Path, args: &[&str]) -> Output {
-    let mut command = Command::cargo_bin("lgp").expect("the program is built");
-    command.current_dir(folder).args(args).output().expect("it runs")
-}
 
 /// A folder with data, their scene, and a run of them that says nothing of its files' checksums, as those of older
 /// versions do.
@@ -32,8 +28,7 @@ fn searched() -> TempDir {
         } else {
             args.to_vec()
         };
-        let output = lgp(here, &args);
-        assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+        succeed(here, &args);
     }
     let path = here.join("run/run.ron");
     let text = std::fs::read_to_string(&path).unwrap();

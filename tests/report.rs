@@ -1,20 +1,12 @@
 //! `lgp report`: what it writes, and what it refuses.
 
-use assert_cmd::Command;
+mod command;
+
+use command::{lgp_here, text};
 use serde_json::Value;
 use std::path::Path;
 use std::process::Output;
 use tempfile::TempDir;
-
-/// Run at the top of the repository, where the committed runs have their datasets.
-fn lgp(args: &[&str]) -> Output {
-    let mut command = Command::cargo_bin("lgp").expect("the program is built");
-    command.current_dir(env!("CARGO_MANIFEST_DIR")).args(args).output().expect("it runs")
-}
-
-fn text(bytes: &[u8]) -> String {
-    String::from_utf8_lossy(bytes).into_owned()
-}
 
 /// A copy of a run that `tests/fixtures/refresh` makes.
 fn copy_of(run: &str) -> TempDir {
@@ -37,7 +29,7 @@ fn without_checksums(folder: &TempDir) {
 }
 
 fn report(folder: &TempDir, extra: &[&str]) -> Output {
-    lgp(&[&["report", folder.path().to_str().unwrap()], extra].concat())
+    lgp_here(&[&["report", folder.path().to_str().unwrap()], extra].concat())
 }
 
 fn page(folder: &TempDir) -> String {
@@ -75,9 +67,10 @@ fn a_page_holds_each_member_on_every_profile_and_the_published_formulas() {
     let folder = copy_of("dfg");
     assert!(report(&folder, &[]).status.success());
     let data = data(&page(&folder));
-    let front: Vec<Value> =
-        serde_json::from_slice(&lgp(&["front", folder.path().to_str().unwrap(), "--json"]).stdout)
-            .unwrap();
+    let front: Vec<Value> = serde_json::from_slice(
+        &lgp_here(&["front", folder.path().to_str().unwrap(), "--json"]).stdout,
+    )
+    .unwrap();
     let members = data["fronts"][0]["members"].as_array().unwrap();
     assert_eq!(members.len(), front.len());
     for (member, known) in members.iter().zip(&front) {
@@ -166,7 +159,7 @@ fn a_damaged_or_half_written_folder_is_refused_and_left_as_it_was() {
         std::fs::remove_file(folder.path().join(missing)).unwrap();
         refused(&folder, expected);
     }
-    let nothing = lgp(&["report", "no/such/folder"]);
+    let nothing = lgp_here(&["report", "no/such/folder"]);
     assert_eq!(nothing.status.code(), Some(3));
     assert!(text(&nothing.stderr).contains("no such folder"));
 }
@@ -197,7 +190,7 @@ fn runs_are_compared_those_that_differ_only_in_their_seeds_as_one() {
         let runs = runs.iter().map(String::as_str);
         let args: Vec<&str> =
             ["report"].into_iter().chain(runs).chain(["--output", out.to_str().unwrap()]).collect();
-        lgp(&args)
+        lgp_here(&args)
     };
     let done = compare(&[&first, &second, &third]);
     assert!(done.status.success(), "{}", text(&done.stderr));
@@ -244,15 +237,15 @@ fn pictures_are_made_of_what_has_them() {
         assert!(folder.path().join(file).is_file(), "{file}");
     }
     let here = folder.path().to_str().unwrap();
-    let other = lgp(&["render", "tests/fixtures/hammon_single"]);
+    let other = lgp_here(&["render", "tests/fixtures/hammon_single"]);
     assert_eq!(other.status.code(), Some(3));
     assert!(text(&other.stderr).contains("no sphere is known"), "{}", text(&other.stderr));
-    let outside = lgp(&["render", here, "--roughness", "1.5"]);
+    let outside = lgp_here(&["render", here, "--roughness", "1.5"]);
     assert_eq!(outside.status.code(), Some(2));
     let picture = folder.path().join("p.png");
     let picture = picture.to_str().unwrap();
     let drawn =
-        lgp(&["render", here, "--pick", "1", "--roughness", "0.5", "-o", picture, "--json"]);
+        lgp_here(&["render", here, "--pick", "1", "--roughness", "0.5", "-o", picture, "--json"]);
     let json: Value = serde_json::from_slice(&drawn.stdout).unwrap();
     assert!(json["displayed_rmse"].as_f64().unwrap() > 0.0);
 }
