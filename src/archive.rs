@@ -63,7 +63,7 @@ pub(crate) fn near_the_least<T>(
 }
 
 /// A loss smaller than the reference by more than this counts as zero.
-const MOST_GAIN: f64 = 1e30;
+const MAX_GAIN: f64 = 1e30;
 
 /// Members by rising cost, their losses falling. What is offered may come in any order.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
@@ -110,7 +110,7 @@ impl Archive {
             .zip(ends)
             .filter(|(member, _)| member.loss < reference && member.cost < max_cost)
             .map(|(member, end)| {
-                (end.min(max_cost) - member.cost) * (reference / member.loss).min(MOST_GAIN).ln()
+                (end.min(max_cost) - member.cost) * (reference / member.loss).min(MAX_GAIN).ln()
             })
             .sum()
     }

@@ -2,7 +2,7 @@
 
 use lgp::cost::{CostScratch, Profile};
 use lgp::dataset::Split;
-use lgp::eval::{Evaluator, Loss, Samples, Tape, Values};
+use lgp::eval::{ErrorSums, Evaluator, Samples, Tape, Values};
 use lgp::fit::{Differentiated, Fitter, Stop};
 use lgp::op::Op;
 use lgp::program::{Arg, Constants, Draft, Program, effective_into, structural_hash};
@@ -54,7 +54,7 @@ struct Bench {
     derivative: Differentiated,
     evaluator: Evaluator,
     fitter: Fitter,
-    loss: Loss,
+    loss: ErrorSums,
     values: Values,
 }
 
@@ -73,7 +73,7 @@ impl Bench {
             derivative: Differentiated::default(),
             evaluator: Evaluator::default(),
             fitter: Fitter::default(),
-            loss: Loss::default(),
+            loss: ErrorSums::default(),
             values: Values::default(),
         }
     }

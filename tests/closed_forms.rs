@@ -2,7 +2,7 @@
 //! what was published for them, with the errors of `tests/reference/README.md`.
 
 use lgp::cost::{CostScratch, Profile};
-use lgp::dataset::{Comparable, Dataset, incumbents_for};
+use lgp::dataset::{Dataset, ParsedIncumbent, incumbents_for};
 use lgp::microfacet::{beckmann, fresnel, ggx, masking};
 use lgp::targets::{Recipe, generate};
 use std::path::{Path, PathBuf};
@@ -17,7 +17,7 @@ fn load(name: &str) -> Dataset {
     Dataset::load(&committed(&format!("{name}.bin"))).unwrap()
 }
 
-fn incumbents(name: &str) -> Vec<Comparable> {
+fn incumbents(name: &str) -> Vec<ParsedIncumbent> {
     incumbents_for(&committed(&format!("{name}.bin")), &load(name)).unwrap()
 }
 
@@ -61,7 +61,7 @@ fn splits_are_moderate_denser_and_disjoint() {
 }
 
 /// RMSE and largest absolute error of a formula on the search split.
-fn errors(known: &Comparable, data: &Dataset) -> [f64; 2] {
+fn errors(known: &ParsedIncumbent, data: &Dataset) -> [f64; 2] {
     let (inputs, columns) = (data.inputs.len(), &data.search.columns);
     let (mut squares, mut largest) = (0.0, 0.0_f64);
     for row in 0..data.search.rows() {

@@ -5,7 +5,9 @@ use lgp::dataset::{Column, Dataset, Split};
 use lgp::fit::Measure;
 use lgp::grammar::Grammar;
 use lgp::program::{Names, Program};
-use lgp::search::{Front, FrontMember, Goal, Method, Problem, Published, Requirement, Search};
+use lgp::search::{
+    Front, FrontMember, Goal, Method, Problem, Requirement, ScoredIncumbent, Search,
+};
 use lgp::wording::front_table;
 
 /// Two outputs, the second `scale` times as large; weights that favour large inputs, and free errors.
@@ -15,9 +17,9 @@ fn dataset(scale: f32) -> Dataset {
         let column = |f: &dyn Fn(f32) -> f32| -> Vec<f32> { xs.iter().map(|&x| f(x)).collect() };
         let outputs = [column(&|x| 0.2 + (3.0 * x).sin()), column(&|x| scale * (x * x + 0.1))];
         let weights = column(&|x| 0.05 + 4.0 * x * x);
-        let free = vec![column(&|x| 0.02 * x), column(&|x| 0.02 * scale * (1.0 - x))];
+        let dead_zone = vec![column(&|x| 0.02 * x), column(&|x| 0.02 * scale * (1.0 - x))];
         let columns = [xs].into_iter().chain(outputs).collect();
-        Split { columns, weights, free, ..Split::default() }
+        Split { columns, weights, dead_zone, ..Split::default() }
     };
     let column = |name, high| Column::new(name, [0.0, high]);
     Dataset {
@@ -111,7 +113,7 @@ fn a_table_shows_and_judges_by_what_was_made_small() {
         let worse = if better == &right { &left } else { &right };
         assert!(better.dominates(worse, measure) && !worse.dominates(better, measure));
         let front = Front::from_members(vec![better.clone()], measure);
-        let known = Published { name: "known".into(), member: worse.clone() };
+        let known = ScoredIncumbent { name: "known".into(), member: worse.clone() };
         let table = front_table(&front, &[known], &names.outputs);
         let error = lgp::wording::error_text(better.validation_error().of(measure));
         let judged = format!("dominated by 1 (1 cycles, val. {measure} RMSE {error})");

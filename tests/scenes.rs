@@ -174,7 +174,7 @@ fn quantisation_hides_errors() {
     data.save(&file).unwrap();
     assert_eq!(Dataset::load(&file).unwrap(), data);
     let chosen = data.select(Some(&["roughness".into()]), None).unwrap();
-    assert_eq!(chosen.search.free, data.search.free);
+    assert_eq!(chosen.search.dead_zone, data.search.dead_zone);
 }
 
 #[test]

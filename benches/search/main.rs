@@ -20,7 +20,7 @@ use lgp::dataset::{Dataset, Incumbent, incumbents_for};
 use lgp::fit::Measure;
 use lgp::grammar::Grammar;
 use lgp::run::Session;
-use lgp::search::{Front, FrontMember, Goal, Method, Problem, Published, Search};
+use lgp::search::{Front, FrontMember, Goal, Method, Problem, ScoredIncumbent, Search};
 use record::{Budget, Member, Run, Runs, TRACED, TracePoint};
 use std::error::Error;
 use std::path::{Path, PathBuf};
@@ -84,7 +84,7 @@ pub struct Case {
     pub name: String,
     pub definition: String,
     pub dataset: Dataset,
-    pub published: Vec<Published>,
+    pub published: Vec<ScoredIncumbent>,
 }
 
 fn main() -> Result<(), Box<dyn Error>> {
@@ -186,8 +186,8 @@ fn published(
     program: lgp::program::Program,
     dataset: &Dataset,
     profile: &Profile,
-) -> Published {
-    Published { name, member: FrontMember::new(program, dataset, profile, &dataset.names()) }
+) -> ScoredIncumbent {
+    ScoredIncumbent { name, member: FrontMember::new(program, dataset, profile, &dataset.names()) }
 }
 
 /// One search, its front noted at each budget.

@@ -1,6 +1,6 @@
 //! Values on the command line.
 
-use crate::search::MOST_CYCLES;
+use crate::search::MAX_CYCLES;
 use std::time::Duration;
 
 /// A time: `60s`, `10m`, `1.5h`, `500ms`, or seconds alone.
@@ -21,9 +21,9 @@ pub fn duration(text: &str) -> Result<Duration, String> {
 /// A cost budget.
 pub fn cycles(text: &str) -> Result<f64, String> {
     match text.parse::<f64>() {
-        Ok(cost) if (0.0..=MOST_CYCLES).contains(&cost) => Ok(cost),
+        Ok(cost) if (0.0..=MAX_CYCLES).contains(&cost) => Ok(cost),
         _ => {
-            Err(format!("a cost budget is 0 to {MOST_CYCLES} cycles; no formula costs less than 0"))
+            Err(format!("a cost budget is 0 to {MAX_CYCLES} cycles; no formula costs less than 0"))
         }
     }
 }

@@ -3,7 +3,7 @@ use super::{Common, Failure, tiers};
 use crate::run::Subject;
 use crate::run::{MemberRecord, Run};
 use crate::search::Front;
-use crate::search::Published;
+use crate::search::ScoredIncumbent;
 use crate::wording::front_table;
 use std::path::{Path, PathBuf};
 
@@ -37,6 +37,6 @@ fn count_registers(run: &Run, front: &mut Front) {
 }
 
 /// The incumbents, if the dataset is still where the run found it.
-pub(super) fn incumbents(run: &mut Run, folder: &Path) -> Option<Vec<Published>> {
+pub(super) fn incumbents(run: &mut Run, folder: &Path) -> Option<Vec<ScoredIncumbent>> {
     Subject::of_run(run, folder).ok()?.published_for(run)
 }

@@ -4,7 +4,7 @@ use super::run_folder::{self, Which};
 use super::{Common, Failure, emit, output};
 use crate::dataset::replace_file;
 use crate::report::plot::Theme;
-use crate::report::spheres::{Environment, View};
+use crate::report::spheres::{Environment, Settings};
 use crate::report::{Drawing, ROUGHNESSES, SIZE};
 use crate::run::{Folder, Subject};
 use crate::wording::cycles_text;
@@ -32,13 +32,13 @@ pub struct Args {
     #[arg(default_values_t = ROUGHNESSES)]
     roughness: Vec<f32>,
     /// Reflectance at normal incidence
-    #[arg(long, value_name = "F", default_value_t = View::default().f0, value_parser = unit)]
+    #[arg(long, value_name = "F", default_value_t = Settings::default().f0, value_parser = unit)]
     f0: f32,
     /// Full angle of a spherical light's cone, in radians
-    #[arg(long, value_name = "A", default_value_t = View::default().omega, value_parser = unit)]
+    #[arg(long, value_name = "A", default_value_t = Settings::default().omega, value_parser = unit)]
     omega: f32,
     /// In stops
-    #[arg(long, value_name = "S", default_value_t = View::default().exposure, value_parser = stops)]
+    #[arg(long, value_name = "S", default_value_t = Settings::default().exposure, value_parser = stops)]
     #[arg(allow_hyphen_values = true)]
     exposure: f32,
     /// Pixels across a sphere
@@ -94,12 +94,13 @@ pub fn run(args: &Args, common: &Common) -> Result<(), Failure> {
     };
     let path = args.output.clone().unwrap_or_else(|| args.run.join("spheres.png"));
     output::check_writable(&path)?;
-    let view = View { f0: args.f0, omega: args.omega, exposure: args.exposure, ..View::default() };
+    let settings =
+        Settings { f0: args.f0, omega: args.omega, exposure: args.exposure, ..Settings::default() };
     let drawing = Drawing {
         run: &run,
         dataset: &dataset,
         environment: args.environment,
-        view,
+        settings,
         roughness: &args.roughness,
         size: args.size.into(),
     };

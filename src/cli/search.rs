@@ -7,7 +7,7 @@ use crate::emit::Language;
 use crate::fit::Measure;
 use crate::report::Report;
 use crate::run::{FRONT_TABLE, MemberRecord, Outcome, Run, Session};
-use crate::search::{MOST_ISLANDS, SetupError};
+use crate::search::{MAX_ISLANDS, SetupError};
 use crate::wording::front_table;
 use std::path::{Path, PathBuf};
 use std::time::Duration;
@@ -58,7 +58,7 @@ pub struct Args {
     pub(super) transform: Vec<String>,
     /// Populations that evolve apart (part of what a seed repeats) [default: 8]
     #[arg(long, value_name = "N")]
-    #[arg(value_parser = clap::value_parser!(u16).range(1..=MOST_ISLANDS as i64))]
+    #[arg(value_parser = clap::value_parser!(u16).range(1..=MAX_ISLANDS as i64))]
     pub(super) islands: Option<u16>,
     /// Try all formulas of at most C cycles first [default: of 1 cycle, if they are few]
     #[arg(long, value_name = "C")]

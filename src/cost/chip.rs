@@ -1,6 +1,6 @@
 //! A chip's profile: what its instructions cost, and what its compiler merges, from a `.ron` file.
 
-use super::form::Form;
+use super::form::Lowered;
 use crate::grammar::{FileError, file};
 use crate::op::Op;
 use serde::{Deserialize, Serialize};
@@ -23,9 +23,9 @@ pub(super) struct Chip {
     pub pipes: Vec<String>,
     pub merges: Merges,
     /// By operation.
-    costs: Vec<Cost>,
+    costs: Vec<Timing>,
     /// Of a minimum of three.
-    three: Cost,
+    three: Timing,
     /// Of a constant that is no part of an instruction.
     pub literal: Option<Slots>,
     /// What all this was read from.
@@ -34,7 +34,7 @@ pub(super) struct Chip {
 
 /// Slots, and cycles until the result can be read.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub(super) struct Cost {
+pub(super) struct Timing {
     pub slots: Slots,
     pub latency: f64,
 }
@@ -107,7 +107,7 @@ impl Chip {
             file::operation(name)?;
         }
         let cost_of = |what: &str, parts: &BTreeMap<String, u32>| {
-            let mut cost = Cost::default();
+            let mut cost = Timing::default();
             for (kind, &count) in parts {
                 let found = file.instructions.get(kind);
                 let instruction =
@@ -142,19 +142,19 @@ impl Chip {
     }
 
     /// The cost of an operation by itself, with nothing merged.
-    pub fn of_op(&self, op: Op) -> &Cost {
+    pub fn of_op(&self, op: Op) -> &Timing {
         &self.costs[op as usize]
     }
 
     /// The cost of an instruction.
-    pub fn of_form(&self, form: Form) -> Cost {
+    pub fn of_form(&self, form: Lowered) -> Timing {
         match form {
-            Form::Merged => Cost::default(),
-            Form::As(op) => *self.of_op(op),
-            Form::Three => self.three,
-            Form::Products(count) => self.of_op(Op::Mul).times(f64::from(count)),
-            Form::Quotient { inverse, product } => {
-                let mut cost = inverse.map_or(Cost::default(), |op| *self.of_op(op));
+            Lowered::Merged => Timing::default(),
+            Lowered::As(op) => *self.of_op(op),
+            Lowered::Three => self.three,
+            Lowered::Products(count) => self.of_op(Op::Mul).times(f64::from(count)),
+            Lowered::Quotient { inverse, product } => {
+                let mut cost = inverse.map_or(Timing::default(), |op| *self.of_op(op));
                 if product {
                     cost = cost.plus(self.of_op(Op::Mul));
                 }
@@ -169,7 +169,7 @@ pub(super) fn busiest(slots: &Slots) -> f64 {
     slots.iter().fold(0.0, |most, &slots| f64::max(most, slots))
 }
 
-impl Cost {
+impl Timing {
     fn add(&mut self, instruction: &Instruction, count: f64) {
         for (total, slots) in self.slots.iter_mut().zip(&instruction.slots) {
             *total += slots * count;
@@ -177,15 +177,15 @@ impl Cost {
         self.latency += instruction.latency * count;
     }
 
-    fn plus(&self, other: &Cost) -> Cost {
-        Cost {
+    fn plus(&self, other: &Timing) -> Timing {
+        Timing {
             slots: std::array::from_fn(|pipe| self.slots[pipe] + other.slots[pipe]),
             latency: self.latency + other.latency,
         }
     }
 
-    fn times(&self, count: f64) -> Cost {
-        Cost { slots: self.slots.map(|slots| slots * count), latency: self.latency * count }
+    fn times(&self, count: f64) -> Timing {
+        Timing { slots: self.slots.map(|slots| slots * count), latency: self.latency * count }
     }
 }
 

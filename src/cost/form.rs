@@ -8,7 +8,7 @@ use crate::program::{Arg, Draft, use_counts};
 
 /// What a compiler makes of an instruction.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) enum Form {
+pub(super) enum Lowered {
     /// Nothing: an intron, a part of each of its readers, or a modifier.
     Merged,
     /// The instructions of an operation.
@@ -28,37 +28,38 @@ pub(super) fn find_forms(draft: &Draft, merges: &Merges, scratch: &mut CostScrat
     scratch.inverses.clear();
     scratch.forms.clear();
     for i in 0..draft.instrs.len() {
-        let form = if scratch.uses[i] > 0 { form(draft, i, merges, scratch) } else { Form::Merged };
+        let form =
+            if scratch.uses[i] > 0 { form(draft, i, merges, scratch) } else { Lowered::Merged };
         scratch.forms.push(form);
     }
 }
 
-fn form(draft: &Draft, i: usize, merges: &Merges, scratch: &mut CostScratch) -> Form {
+fn form(draft: &Draft, i: usize, merges: &Merges, scratch: &mut CostScratch) -> Lowered {
     let instr = &draft.instrs[i];
     let args = instr.args();
     let absorbed = scratch.is_absorbed(i);
     // Without a finite value, or it were folded.
     if args.iter().all(|&arg| is_any_constant(arg)) {
-        return Form::Merged;
+        return Lowered::Merged;
     }
     match instr.op() {
-        Op::Neg | Op::Abs if !is_output(draft, i) => Form::Merged,
-        Op::Neg if takes_sign(draft, args[0], &scratch.uses) => Form::Merged,
-        Op::Saturate if saturates_free(draft, args[0], merges, &scratch.uses) => Form::Merged,
-        Op::Mul if absorbed => Form::Merged,
-        Op::Mul if merges.scaled_results && scales_a_sum(draft, args, scratch) => Form::Merged,
-        Op::Sqrt | Op::Rsqrt if scratch.divides[i] == scratch.uses[i] => Form::Merged,
+        Op::Neg | Op::Abs if !is_output(draft, i) => Lowered::Merged,
+        Op::Neg if takes_sign(draft, args[0], &scratch.uses) => Lowered::Merged,
+        Op::Saturate if saturates_free(draft, args[0], merges, &scratch.uses) => Lowered::Merged,
+        Op::Mul if absorbed => Lowered::Merged,
+        Op::Mul if merges.scaled_results && scales_a_sum(draft, args, scratch) => Lowered::Merged,
+        Op::Sqrt | Op::Rsqrt if scratch.divides[i] == scratch.uses[i] => Lowered::Merged,
         Op::Rcp => quotient(inverse(draft, args[0], scratch), false),
         Op::Div => match (args[0], args[1]) {
-            (_, Arg::Const(_)) if absorbed => Form::Merged,
-            (_, Arg::Const(_)) => Form::As(Op::Mul),
+            (_, Arg::Const(_)) if absorbed => Lowered::Merged,
+            (_, Arg::Const(_)) => Lowered::As(Op::Mul),
             (x, y) if is_constant(draft, x, 1.0) => quotient(inverse(draft, y, scratch), false),
             (_, y) => quotient(inverse(draft, y, scratch), !absorbed),
         },
         Op::Pow => power(draft, args),
-        Op::Lerp if is_any_constant(args[0]) && is_any_constant(args[1]) => Form::As(Op::Mad),
+        Op::Lerp if is_any_constant(args[0]) && is_any_constant(args[1]) => Lowered::As(Op::Mad),
         op @ (Op::Min | Op::Max) if merges.min3.is_some() => extremum(draft, op, args, scratch),
-        op => Form::As(op),
+        op => Lowered::As(op),
     }
 }
 
@@ -73,8 +74,8 @@ fn inverse(draft: &Draft, of: Arg, scratch: &mut CostScratch) -> Option<Op> {
     let Arg::Result(i) = of else { return Some(Op::Rcp) };
     let i = usize::from(i);
     match (scratch.forms[i], draft.instrs[i].op()) {
-        (Form::Merged, Op::Sqrt) => Some(Op::Rsqrt),
-        (Form::Merged, Op::Rsqrt) => Some(Op::Sqrt),
+        (Lowered::Merged, Op::Sqrt) => Some(Op::Rsqrt),
+        (Lowered::Merged, Op::Rsqrt) => Some(Op::Sqrt),
         _ => Some(Op::Rcp),
     }
 }
@@ -89,32 +90,32 @@ fn unsigned(draft: &Draft, arg: Arg) -> Arg {
     }
 }
 
-fn quotient(inverse: Option<Op>, product: bool) -> Form {
+fn quotient(inverse: Option<Op>, product: bool) -> Lowered {
     match (inverse, product) {
-        (None, false) => Form::Merged,
-        _ => Form::Quotient { inverse, product },
+        (None, false) => Lowered::Merged,
+        _ => Lowered::Quotient { inverse, product },
     }
 }
 
 /// Powers that are not worth a logarithm; of the whole exponents only 2 and 4 are expanded.
-fn power(draft: &Draft, args: &[Arg]) -> Form {
+fn power(draft: &Draft, args: &[Arg]) -> Lowered {
     let constant = |arg: Arg| match arg {
         Arg::Const(c) => Some(draft.consts[usize::from(c)]),
         _ => None,
     };
     match (constant(args[0]), constant(args[1])) {
-        (_, Some(2.0)) => Form::Products(1),
-        (_, Some(4.0)) => Form::Products(2),
-        (_, Some(0.5)) => Form::As(Op::Sqrt),
-        (_, Some(-0.5)) => Form::As(Op::Rsqrt),
+        (_, Some(2.0)) => Lowered::Products(1),
+        (_, Some(4.0)) => Lowered::Products(2),
+        (_, Some(0.5)) => Lowered::As(Op::Sqrt),
+        (_, Some(-0.5)) => Lowered::As(Op::Rsqrt),
         // exp2(y log₂ c), the logarithm known: as many instructions as e^y.
-        (Some(_), _) => Form::As(Op::Exp),
-        _ => Form::As(Op::Pow),
+        (Some(_), _) => Lowered::As(Op::Exp),
+        _ => Lowered::As(Op::Pow),
     }
 }
 
 /// A minimum of a minimum that nothing else reads is one of three; so is a clamp.
-fn extremum(draft: &Draft, op: Op, args: &[Arg], scratch: &mut CostScratch) -> Form {
+fn extremum(draft: &Draft, op: Op, args: &[Arg], scratch: &mut CostScratch) -> Lowered {
     for (arg, other) in [(args[0], args[1]), (args[1], args[0])] {
         let Arg::Result(j) = arg else { continue };
         let j = usize::from(j);
@@ -124,13 +125,15 @@ fn extremum(draft: &Draft, op: Op, args: &[Arg], scratch: &mut CostScratch) -> F
             let bounded = draft.instrs[j].args().iter().any(|&a| is_any_constant(a));
             inner == opposite && is_any_constant(other) && bounded
         };
-        if scratch.uses[j] == 1 && scratch.forms[j] == Form::As(inner) && (inner == op || clamps())
+        if scratch.uses[j] == 1
+            && scratch.forms[j] == Lowered::As(inner)
+            && (inner == op || clamps())
         {
-            scratch.forms[j] = Form::Merged;
-            return Form::Three;
+            scratch.forms[j] = Lowered::Merged;
+            return Lowered::Three;
         }
     }
-    Form::As(op)
+    Lowered::As(op)
 }
 
 /// Counts how many sums absorb each product (a quotient is one, with an inverse), and how often a
@@ -222,7 +225,7 @@ fn scales_a_sum(draft: &Draft, args: &[Arg], scratch: &CostScratch) -> bool {
     [(args[0], args[1]), (args[1], args[0])].into_iter().any(|(arg, factor)| {
         let Arg::Result(i) = arg else { return false };
         let i = usize::from(i);
-        let arithmetic = matches!(scratch.forms[i], Form::As(op) if is_arithmetic(op));
+        let arithmetic = matches!(scratch.forms[i], Lowered::As(op) if is_arithmetic(op));
         let factors = [2.0, 4.0, 0.5];
         arithmetic
             && scratch.uses[i] == 1

@@ -21,7 +21,7 @@ use crate::op::Op;
 use crate::program::{Arg, Draft};
 use crate::simplify::{Simplifier, folded_draft};
 use chip::{Chip, Slots, busiest};
-use form::{Form, find_forms};
+use form::{Lowered, find_forms};
 use serde::Serialize;
 use std::collections::BTreeMap;
 
@@ -36,7 +36,7 @@ pub struct CostScratch {
     divides: Vec<u32>,
     /// Values whose inverse is known.
     inverses: Vec<Arg>,
-    forms: Vec<Form>,
+    forms: Vec<Lowered>,
     simplifier: Simplifier,
     folded: Draft,
 }
@@ -158,7 +158,7 @@ fn chip_cost(draft: &Draft, chip: &Chip) -> Cost {
         let form = scratch.forms[i];
         let entry = ops.entry(instr.op().name()).or_default();
         entry.count += 1;
-        entry.merged += u32::from(form == Form::Merged);
+        entry.merged += u32::from(form == Lowered::Merged);
         entry.take(chip, &chip.of_form(form).slots, 1.0);
     }
     let literals = literals(draft, &scratch);

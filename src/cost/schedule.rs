@@ -2,7 +2,7 @@
 
 use super::CostScratch;
 use super::chip::Chip;
-use super::form::Form;
+use super::form::Lowered;
 use crate::op::Op;
 use crate::program::{Arg, Draft};
 
@@ -51,12 +51,12 @@ impl Graph {
         let mut reads = Vec::with_capacity(draft.instrs.len());
         for (i, instr) in draft.instrs.iter().enumerate() {
             let args = match (scratch.forms[i], instr.op()) {
-                (Form::Merged, _) => {
+                (Lowered::Merged, _) => {
                     reads.push(None);
                     continue;
                 }
                 // The numerator is read by the sum that absorbs the product.
-                (Form::Quotient { product: false, .. }, Op::Div) => &instr.args()[1..],
+                (Lowered::Quotient { product: false, .. }, Op::Div) => &instr.args()[1..],
                 _ => instr.args(),
             };
             let mut results = Vec::new();
@@ -112,8 +112,8 @@ fn expand(draft: &Draft, scratch: &CostScratch, arg: Arg, results: &mut Vec<usiz
         let i = usize::from(i);
         let args = draft.instrs[i].args();
         match (scratch.forms[i], draft.instrs[i].op()) {
-            (Form::Merged, _) => left.extend(args),
-            (Form::Quotient { product: false, .. }, Op::Div) => {
+            (Lowered::Merged, _) => left.extend(args),
+            (Lowered::Quotient { product: false, .. }, Op::Div) => {
                 results.push(i);
                 left.push(args[0]);
             }

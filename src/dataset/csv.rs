@@ -12,7 +12,7 @@ const WEIGHT: &str = "weight";
 const STANDARD_ERROR: &str = "_se";
 
 /// Tables with fewer rows are validated on the rows they are searched on.
-const LEAST_ROWS_TO_SPLIT: usize = 16;
+const MIN_ROWS_TO_SPLIT: usize = 16;
 
 /// Which columns of a table are inputs; the rest are outputs, in file order.
 #[derive(Clone, Debug, PartialEq)]
@@ -304,7 +304,7 @@ fn named_columns(path: &Path, names: &[String], asked: &[String]) -> Result<Vec<
 
 fn split_rows(whole: &Split, inputs: usize) -> (Split, Split) {
     let rows = whole.rows();
-    if rows < LEAST_ROWS_TO_SPLIT {
+    if rows < MIN_ROWS_TO_SPLIT {
         return (whole.clone(), whole.clone());
     }
     let kept: HashSet<usize> =

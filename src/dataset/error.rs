@@ -1,4 +1,4 @@
-use super::{MOST_COLUMNS, MOST_ROWS, NameFault};
+use super::{MAX_COLUMNS, MAX_ROWS, NameFault};
 use crate::printable::printable;
 use crate::program::shortest;
 use std::path::PathBuf;
@@ -31,9 +31,9 @@ pub enum Error {
 
     #[error("{path}: a dataset cannot be called `{}`: {fault}; call its file otherwise and make it again", printable(name), path = path.display())]
     Name { path: PathBuf, name: String, fault: NameFault },
-    #[error("{path}: {columns} columns are more than {MOST_COLUMNS}; leave some out", path = path.display())]
+    #[error("{path}: {columns} columns are more than {MAX_COLUMNS}; leave some out", path = path.display())]
     TooManyColumns { path: PathBuf, columns: usize },
-    #[error("{path}: the {split} split has {rows} rows, more than {MOST_ROWS}; take some of them", path = path.display())]
+    #[error("{path}: the {split} split has {rows} rows, more than {MAX_ROWS}; take some of them", path = path.display())]
     TooManyRows { path: PathBuf, split: &'static str, rows: usize },
     #[error("{path}: the unit of column `{column}` is none: {fault}; write it as in `nm`", path = path.display())]
     Unit { path: PathBuf, column: String, fault: NameFault },

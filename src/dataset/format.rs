@@ -1,6 +1,6 @@
 //! The `.bin` file: magic `LGPDATA1`, the header's length (u32, little-endian),
 //! the header in RON, the columns as little-endian f32 (search columns,
-//! weights, free and standard errors, then the validation split's), and the 32-byte blake3 checksum
+//! weights, dead zones and standard errors, then the validation split's), and the 32-byte blake3 checksum
 //! of everything before it.
 
 use super::{
@@ -36,9 +36,9 @@ struct Header {
 struct SplitHeader {
     rows: u64,
     weighted: bool,
-    /// Whether each output has a column of errors that nobody sees.
-    #[serde(default, skip_serializing_if = "std::ops::Not::not")]
-    free: bool,
+    /// Whether each output has a column of its dead zone.
+    #[serde(alias = "free", default, skip_serializing_if = "std::ops::Not::not")]
+    dead_zone: bool,
     /// Whether each output has a column of standard errors.
     #[serde(default, skip_serializing_if = "std::ops::Not::not")]
     standard_errors: bool,
@@ -48,7 +48,7 @@ struct SplitHeader {
 impl SplitHeader {
     /// Columns beside inputs and outputs.
     fn beside(&self, outputs: usize) -> u128 {
-        let by_output = u128::from(self.free) + u128::from(self.standard_errors);
+        let by_output = u128::from(self.dead_zone) + u128::from(self.standard_errors);
         u128::from(self.weighted) + by_output * outputs as u128
     }
 }
@@ -141,7 +141,7 @@ impl Dataset {
         let split = |split: &Split| SplitHeader {
             rows: split.rows() as u64,
             weighted: !split.weights.is_empty(),
-            free: !split.free.is_empty(),
+            dead_zone: !split.dead_zone.is_empty(),
             standard_errors: !split.standard_errors.is_empty(),
             grid: split.grid.clone(),
         };
@@ -165,7 +165,7 @@ impl Dataset {
         bytes.extend_from_slice(header.as_bytes());
         for split in [&self.search, &self.validation] {
             let beside =
-                [&split.weights].into_iter().chain(&split.free).chain(&split.standard_errors);
+                [&split.weights].into_iter().chain(&split.dead_zone).chain(&split.standard_errors);
             for column in split.columns.iter().chain(beside) {
                 bytes.extend(column.iter().flat_map(|value| value.to_le_bytes()));
             }
@@ -274,7 +274,7 @@ fn assemble(header: Header, origin: Origin, body: &[u8]) -> Dataset {
         Split {
             columns: (0..columns).map(|_| column()).collect(),
             weights: if split.weighted { column() } else { Vec::new() },
-            free: (0..if split.free { outputs } else { 0 }).map(|_| column()).collect(),
+            dead_zone: (0..if split.dead_zone { outputs } else { 0 }).map(|_| column()).collect(),
             standard_errors: (0..if split.standard_errors { outputs } else { 0 })
                 .map(|_| column())
                 .collect(),

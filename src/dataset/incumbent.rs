@@ -25,7 +25,7 @@ pub struct Incumbent {
 
 /// An incumbent read over a dataset's columns.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Comparable {
+pub struct ParsedIncumbent {
     pub incumbent: Incumbent,
     /// Over the dataset's inputs; one output for each of `outputs`.
     pub program: Program,
@@ -37,7 +37,7 @@ pub struct Comparable {
 impl Incumbent {
     /// This incumbent over a dataset's columns, or nothing if it uses other
     /// inputs or defines none of the outputs.
-    pub fn compared_on(&self, dataset: &Dataset) -> Option<Comparable> {
+    pub fn compared_on(&self, dataset: &Dataset) -> Option<ParsedIncumbent> {
         let inputs: Vec<&str> = dataset.inputs.iter().map(|column| column.name.as_str()).collect();
         let over = |outputs: &[String]| {
             let outputs = outputs.iter().map(String::as_str);
@@ -47,7 +47,7 @@ impl Incumbent {
         let outputs: Vec<String> =
             names.filter(|name| over(std::slice::from_ref(name)).is_some()).collect();
         let program = over(&outputs).filter(|_| !outputs.is_empty())?;
-        Some(Comparable { incumbent: self.clone(), program, outputs })
+        Some(ParsedIncumbent { incumbent: self.clone(), program, outputs })
     }
 }
 
@@ -102,7 +102,10 @@ pub fn incumbents_file(dataset_path: &Path, dataset: &Dataset) -> Option<PathBuf
 ///
 /// # Errors
 /// Those of [`load_incumbents`].
-pub fn incumbents_for(dataset_path: &Path, dataset: &Dataset) -> Result<Vec<Comparable>, Error> {
+pub fn incumbents_for(
+    dataset_path: &Path,
+    dataset: &Dataset,
+) -> Result<Vec<ParsedIncumbent>, Error> {
     let Some(file) = incumbents_file(dataset_path, dataset) else {
         return Ok(Vec::new());
     };

@@ -24,7 +24,7 @@ pub use claims::{check_claims, claims_of_old};
 pub use csv::{InputColumns, Table, import_csv};
 pub use error::Error;
 pub use file::{StagedFile, TEMPORARY, remove_file, replace_file, witness_file_operations};
-pub use incumbent::{Comparable, Incumbent, incumbents_file, incumbents_for, load_incumbents};
+pub use incumbent::{Incumbent, ParsedIncumbent, incumbents_file, incumbents_for, load_incumbents};
 pub use kind::{check_replaceable, read_file, read_text};
 pub use name::{LONGEST_NAME, NameFault, check_name, check_text};
 pub use origin::Origin;
@@ -65,7 +65,7 @@ pub struct Split {
     pub weights: Vec<f32>,
     /// By output, the error of each row that nobody sees ([`crate::scene::Quantisation`]); empty where
     /// all errors count.
-    pub free: Vec<Vec<f32>>,
+    pub dead_zone: Vec<Vec<f32>>,
     /// By output, the standard error of each row's value, as a simulation or an instrument has it; empty where values
     /// are exact to the rounding of `f32`. No formula wins by less.
     pub standard_errors: Vec<Vec<f32>>,
@@ -103,7 +103,7 @@ pub struct Dataset {
 
 impl Dataset {
     /// Checks what every consumer relies on: a name that names a file ([`check_name`]); at least one
-    /// input, one output and one row a split, at most [`MOST_COLUMNS`] and [`MOST_ROWS`]; names of columns
+    /// input, one output and one row a split, at most [`MAX_COLUMNS`] and [`MAX_ROWS`]; names of columns
     /// that are unique identifiers, units of one line; claims over them ([`check_claims`]); ordered domains within f32; columns of equal length holding finite values; weights finite,
     /// not negative, and not all zero; a grid that multiplies to the rows.
     ///
@@ -186,14 +186,15 @@ impl Dataset {
         }
         match rows.rows() {
             0 => return Err(Error::NoRows { path: path.into(), split }),
-            1..=MOST_ROWS => {}
+            1..=MAX_ROWS => {}
             rows => return Err(Error::TooManyRows { path: path.into(), split, rows }),
         }
         for (column, values) in self.columns().zip(&rows.columns) {
             validate_values(path, split, &column.name, values, rows.rows())?;
         }
         validate_weights(path, split, rows)?;
-        for beside in [("free errors", &rows.free), ("standard errors", &rows.standard_errors)] {
+        for beside in [("dead zones", &rows.dead_zone), ("standard errors", &rows.standard_errors)]
+        {
             let (called, columns) = beside;
             self.validate_beside(path, split, (called, columns), rows.rows())?;
         }
@@ -212,13 +213,13 @@ impl Dataset {
 }
 
 /// Columns of a dataset: formulas index them by 16 bits, and scenes add values to them.
-pub const MOST_COLUMNS: usize = 4096;
+pub const MAX_COLUMNS: usize = 4096;
 /// Bytes of a file that datasets and tables are read from.
 pub const LARGEST_FILE: u64 = 1 << 30;
 /// Bytes of a file of settings, recipes or formulas.
 pub const LARGEST_TEXT: u64 = 1 << 24;
 /// Rows of a split.
-pub const MOST_ROWS: usize = 1 << 28;
+pub const MAX_ROWS: usize = 1 << 28;
 
 /// Checks that columns are not too many, names unique identifiers, units of one line, and domains within f32
 /// and ordered.
@@ -252,7 +253,7 @@ pub fn check_columns<'a>(
         }
     }
     match seen.len() {
-        0..=MOST_COLUMNS => Ok(()),
+        0..=MAX_COLUMNS => Ok(()),
         columns => Err(Error::TooManyColumns { path: path.into(), columns }),
     }
 }

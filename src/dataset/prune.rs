@@ -32,7 +32,7 @@ impl Dataset {
         self.search = Split {
             columns: self.search.columns.iter().map(of).collect(),
             weights: kept.iter().map(|&(_, weight)| weight as f32).collect(),
-            free: self.search.free.iter().map(of).collect(),
+            dead_zone: self.search.dead_zone.iter().map(of).collect(),
             standard_errors: self.search.standard_errors.iter().map(of).collect(),
             grid: Vec::new(),
         };

@@ -65,7 +65,7 @@ impl Dataset {
         Split {
             columns: indices.iter().filter_map(column).collect(),
             weights: split.weights.clone(),
-            free: beside(&split.free),
+            dead_zone: beside(&split.dead_zone),
             standard_errors: beside(&split.standard_errors),
             grid: if same_inputs { split.grid.clone() } else { Vec::new() },
         }

@@ -80,7 +80,7 @@ unsafe fn accumulate_in<L: Lanes>(
         let residual = Residual {
             values: output(o as u16),
             targets: chunk.rows_of(chunk.samples.target(o)),
-            free: chunk.samples.free(o).map(|free| chunk.rows_of(free)),
+            dead_zone: chunk.samples.dead_zone(o).map(|dead_zone| chunk.rows_of(dead_zone)),
         };
         // SAFETY: promised by the caller; every source holds the chunk's blocks.
         unsafe {
@@ -106,13 +106,13 @@ unsafe fn accumulate_in<L: Lanes>(
     }
 }
 
-/// `f − y` of one value in a chunk, or what of it is not free. (The equations' matrix counts all
+/// `f − y` of one value in a chunk, or what of it exceeds the dead zone. (The equations' matrix counts all
 /// samples all the same: it is that of the least squares to the nearest values without an error,
 /// whose solution is never worse.)
 struct Residual {
     values: Source,
     targets: Source,
-    free: Option<Source>,
+    dead_zone: Option<Source>,
 }
 
 impl Residual {
@@ -123,8 +123,8 @@ impl Residual {
         // SAFETY: promised by the caller.
         unsafe {
             let error = self.values.block::<L>(i) - self.targets.block::<L>(i);
-            match self.free {
-                Some(free) => beyond(error, free.block::<L>(i)),
+            match self.dead_zone {
+                Some(dead_zone) => beyond(error, dead_zone.block::<L>(i)),
                 None => error,
             }
         }

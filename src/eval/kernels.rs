@@ -33,7 +33,7 @@ impl Source {
 
 /// Where the memory of one [`Area`] lies in this chunk.
 #[derive(Clone, Copy)]
-struct Place {
+struct Layout {
     first: *mut Block,
     /// Blocks from one column, constant or slot to the next.
     stride: usize,
@@ -46,7 +46,7 @@ pub(super) struct Chunk<'a> {
     pub(super) tape: &'a Tape,
     pub(super) samples: &'a Samples,
     /// By [`Area`].
-    places: [Place; 4],
+    places: [Layout; 4],
     /// The slots and outputs are this chunk's alone; kernels may read and write the same one.
     _slots: PhantomData<&'a mut [Block]>,
     first_block: usize,
@@ -67,7 +67,7 @@ impl<'a> Chunk<'a> {
     ) -> Chunk<'a> {
         let (slots, outputs) = slots.split_at_mut(tape.slots * CHUNK_BLOCKS);
         assert!(outputs.len() >= tape.outputs.len() * CHUNK_BLOCKS, "a slot for every output");
-        let outputs = Place { first: outputs.as_mut_ptr(), stride: CHUNK_BLOCKS, step: BLOCK };
+        let outputs = Layout { first: outputs.as_mut_ptr(), stride: CHUNK_BLOCKS, step: BLOCK };
         Chunk::with_outputs(tape, samples, slots, outputs, first_block)
     }
 
@@ -85,7 +85,7 @@ impl<'a> Chunk<'a> {
         let stride = samples.blocks();
         assert!(columns.len() >= tape.outputs.len() * stride, "a column for every output");
         let first = columns[first_block..].as_mut_ptr();
-        let outputs = Place { first, stride, step: BLOCK };
+        let outputs = Layout { first, stride, step: BLOCK };
         Chunk::with_outputs(tape, samples, slots, outputs, first_block)
     }
 
@@ -93,7 +93,7 @@ impl<'a> Chunk<'a> {
         tape: &'a Tape,
         samples: &'a Samples,
         slots: &'a mut [Block],
-        outputs: Place,
+        outputs: Layout,
         first_block: usize,
     ) -> Chunk<'a> {
         assert_eq!(tape.inputs, samples.inputs(), "the samples have the program's inputs");
@@ -101,9 +101,9 @@ impl<'a> Chunk<'a> {
         let blocks = CHUNK_BLOCKS.min(samples.blocks() - first_block);
         let columns = &samples.columns()[first_block..];
         let columns =
-            Place { first: columns.as_ptr().cast_mut(), stride: samples.blocks(), step: BLOCK };
-        let consts = Place { first: tape.consts.as_ptr().cast_mut(), stride: 1, step: 0 };
-        let slots = Place { first: slots.as_mut_ptr(), stride: CHUNK_BLOCKS, step: BLOCK };
+            Layout { first: columns.as_ptr().cast_mut(), stride: samples.blocks(), step: BLOCK };
+        let consts = Layout { first: tape.consts.as_ptr().cast_mut(), stride: 1, step: 0 };
+        let slots = Layout { first: slots.as_mut_ptr(), stride: CHUNK_BLOCKS, step: BLOCK };
         let places = [columns, consts, slots, outputs];
         Chunk { tape, samples, places, _slots: PhantomData, first_block, blocks }
     }

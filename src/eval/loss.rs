@@ -7,8 +7,8 @@ use crate::num::Lanes;
 
 /// Errors against the samples' targets, for each output.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub struct Loss {
-    /// `Σ w (f − y)²`, of errors that are free in part the rest: in `f32` within a lane of a chunk, in `f64` beyond. Not finite if any
+pub struct ErrorSums {
+    /// `Σ w (f − y)²`, of each error what exceeds the dead zone: in `f32` within a lane of a chunk, in `f64` beyond. Not finite if any
     /// of the program's outputs is not.
     pub sum_of_squares: Vec<f64>,
     /// `max |f − y|`, unweighted; NaN if any of the program's outputs is.
@@ -17,7 +17,7 @@ pub struct Loss {
     pub abandoned: bool,
 }
 
-impl Loss {
+impl ErrorSums {
     /// The sum of squares over all outputs.
     pub fn total(&self) -> f64 {
         self.sum_of_squares.iter().sum()
@@ -30,14 +30,14 @@ impl Evaluator {
     ///
     /// # Panics
     /// If the samples have another number of inputs or outputs than the program.
-    pub fn loss(&mut self, tape: &Tape, samples: &Samples, bound: f64) -> Loss {
-        let mut loss = Loss::default();
+    pub fn loss(&mut self, tape: &Tape, samples: &Samples, bound: f64) -> ErrorSums {
+        let mut loss = ErrorSums::default();
         self.loss_into(tape, samples, bound, &mut loss);
         loss
     }
 
     /// [`Evaluator::loss`] without an allocation.
-    pub fn loss_into(&mut self, tape: &Tape, samples: &Samples, bound: f64, loss: &mut Loss) {
+    pub fn loss_into(&mut self, tape: &Tape, samples: &Samples, bound: f64, loss: &mut ErrorSums) {
         assert_eq!(tape.outputs.len(), samples.outputs(), "a target for each output");
         self.reserve(tape);
         loss.sum_of_squares.clear();
@@ -60,18 +60,18 @@ impl Evaluator {
 
 by_isa! {
     /// Adds the errors of a chunk whose tape was run.
-    fn accumulate(chunk: &Chunk, loss: &mut Loss) -> () = accumulate_in
+    fn accumulate(chunk: &Chunk, loss: &mut ErrorSums) -> () = accumulate_in
 }
 
 /// # Safety
 /// The processor has `L`, whose width is [`BLOCK`].
 #[inline(always)]
-unsafe fn accumulate_in<L: Lanes>(chunk: &Chunk, loss: &mut Loss) {
+unsafe fn accumulate_in<L: Lanes>(chunk: &Chunk, loss: &mut ErrorSums) {
     for (o, &output) in chunk.tape.outputs.iter().enumerate() {
         let weights = chunk.rows_of(chunk.samples.weight(o));
         let values = chunk.source(output);
         let targets = chunk.rows_of(chunk.samples.target(o));
-        let free = chunk.samples.free(o).map(|free| chunk.rows_of(free));
+        let dead_zone = chunk.samples.dead_zone(o).map(|dead_zone| chunk.rows_of(dead_zone));
         // SAFETY: promised by the caller; block `i` lies within the chunk.
         unsafe {
             let mut squares = L::broadcast(0.0);
@@ -79,8 +79,8 @@ unsafe fn accumulate_in<L: Lanes>(chunk: &Chunk, loss: &mut Loss) {
             for i in 0..chunk.blocks {
                 let difference = values.block::<L>(i) - targets.block::<L>(i);
                 largest = largest.maximum(difference.abs());
-                let counted = match free {
-                    Some(free) => beyond(difference, free.block::<L>(i)),
+                let counted = match dead_zone {
+                    Some(dead_zone) => beyond(difference, dead_zone.block::<L>(i)),
                     None => difference,
                 };
                 let weighted = weights.block::<L>(i) * counted;
@@ -92,14 +92,14 @@ unsafe fn accumulate_in<L: Lanes>(chunk: &Chunk, loss: &mut Loss) {
     }
 }
 
-/// What of an error exceeds that which is free.
+/// What of an error exceeds the dead zone.
 ///
 /// # Safety
 /// The processor has `L`.
 #[inline(always)]
-pub(super) unsafe fn beyond<L: Lanes>(error: L, free: L) -> L {
+pub(super) unsafe fn beyond<L: Lanes>(error: L, dead_zone: L) -> L {
     // SAFETY: promised by the caller.
-    unsafe { error - error.minimum(free).maximum(L::broadcast(0.0) - free) }
+    unsafe { error - error.minimum(dead_zone).maximum(L::broadcast(0.0) - dead_zone) }
 }
 
 /// The lanes as an array.

@@ -41,7 +41,7 @@ pub use bounds::Bounds;
 pub use double::Double;
 pub use gauss_newton::{Jacobian, NormalEquations};
 pub use isa::Isa;
-pub use loss::Loss;
+pub use loss::ErrorSums;
 pub use samples::Samples;
 pub use score::{OutputError, Score, relative_floor};
 pub use tape::Tape;

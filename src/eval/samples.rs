@@ -16,7 +16,7 @@ pub struct Samples {
     blocks: usize,
     inputs: usize,
     outputs: usize,
-    /// Inputs, outputs, each output's weights, and where errors may be free, each output's free errors;
+    /// Inputs, outputs, each output's weights, and where there are dead zones, each output's;
     /// `blocks` each.
     values: Vec<Block>,
     /// Of each output's values; none where they are exact.
@@ -117,11 +117,11 @@ impl Samples {
         self.total_weight = total;
     }
 
-    /// Makes errors of one output up to these free: only what exceeds them counts in sums of squares.
+    /// Gives an output a dead zone at each sample: of an error only what exceeds it counts in sums of squares.
     ///
     /// # Panics
     /// If there are fewer errors than samples, or no such output.
-    pub fn set_free(&mut self, output: usize, errors: &[f32]) {
+    pub fn set_dead_zone(&mut self, output: usize, errors: &[f32]) {
         assert!(output < self.outputs, "one of the outputs");
         let first = (self.inputs + 2 * self.outputs) * self.blocks;
         self.values.resize(first + self.outputs * self.blocks, Block([0.0; BLOCK]));
@@ -155,8 +155,8 @@ impl Samples {
         self.column(self.inputs + self.outputs + output)
     }
 
-    /// The errors of an output that are free, if some are.
-    pub(super) fn free(&self, output: usize) -> Option<&[Block]> {
+    /// The dead zone of an output, if it has one.
+    pub(super) fn dead_zone(&self, output: usize) -> Option<&[Block]> {
         let first = (self.inputs + 2 * self.outputs + output) * self.blocks;
         self.values.get(first..first + self.blocks)
     }

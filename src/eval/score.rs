@@ -61,7 +61,7 @@ impl Score {
                 let sampled = Sampled {
                     targets: &split.columns[column],
                     floor: relative_floor(&dataset.search.columns[column]),
-                    free: split.free.get(output).map(Vec::as_slice),
+                    dead_zone: split.dead_zone.get(output).map(Vec::as_slice),
                     split,
                     is_weighted,
                 };
@@ -126,7 +126,7 @@ pub fn relative_floor(targets: &[f32]) -> f64 {
 struct Sampled<'a> {
     targets: &'a [f32],
     floor: f64,
-    free: Option<&'a [f32]>,
+    dead_zone: Option<&'a [f32]>,
     split: &'a Split,
     /// Whether the split's weights are those that the dataset's user gave.
     is_weighted: bool,
@@ -141,11 +141,11 @@ impl Sampled<'_> {
             let error = if f.is_finite() { f64::from(f) - f64::from(y) } else { f64::INFINITY };
             let weight = f64::from(self.split.weight(row));
             let share = if self.is_weighted { 1.0 } else { weight };
-            let free = self.free.map_or(0.0, |free| f64::from(free[row]));
+            let dead_zone = self.dead_zone.map_or(0.0, |dead_zone| f64::from(dead_zone[row]));
             plain.add(share, error);
             relative.add(share, error / f64::from(y).abs().max(self.floor));
             weighted.add(weight, error);
-            visible.add(weight, (error.abs() - free).max(0.0));
+            visible.add(weight, (error.abs() - dead_zone).max(0.0));
             max = max.max(error.abs());
         }
         OutputError {
@@ -153,7 +153,7 @@ impl Sampled<'_> {
             max,
             relative: relative.root(),
             weighted: self.is_weighted.then(|| weighted.root()),
-            visible: self.free.map(|_| visible.root()),
+            visible: self.dead_zone.map(|_| visible.root()),
         }
     }
 }

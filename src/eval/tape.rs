@@ -46,7 +46,7 @@ pub struct Tape {
     pub(super) slots: usize,
     remaining_reads: Vec<u32>,
     place_of: Vec<Operand>,
-    free: Vec<u16>,
+    vacant: Vec<u16>,
 }
 
 impl Tape {
@@ -62,7 +62,7 @@ impl Tape {
         self.inputs = program.inputs;
         self.steps.clear();
         self.slots = 0;
-        self.free.clear();
+        self.vacant.clear();
         self.outputs.clear();
         self.place_of.clear();
         self.place_of.resize(program.instrs.len(), Operand { area: Area::Slots, index: 0 });
@@ -85,7 +85,7 @@ impl Tape {
                 self.release(arg);
             }
             if self.place_of[i].area == Area::Slots {
-                let slot = self.free.pop().unwrap_or_else(|| {
+                let slot = self.vacant.pop().unwrap_or_else(|| {
                     self.slots += 1;
                     (self.slots - 1) as u16
                 });
@@ -125,7 +125,7 @@ impl Tape {
             let reads = &mut self.remaining_reads[usize::from(i)];
             *reads -= 1;
             if *reads == 0 {
-                self.free.push(self.place_of[usize::from(i)].index);
+                self.vacant.push(self.place_of[usize::from(i)].index);
             }
         }
     }

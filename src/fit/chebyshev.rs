@@ -1,13 +1,13 @@
 //! Linear approximation in the maximum norm: the step that a nonlinear one takes again and again.
 
 /// An exchange that makes no headway any more is cut off after so many, times the unknowns.
-const MOST_EXCHANGES: usize = 40;
+const MAX_EXCHANGES: usize = 40;
 
 /// Relative to the largest error: what counts as violated.
 const TOLERANCE: f64 = 1e-10;
 
 /// The smallest pivot.
-const LEAST_PIVOT: f64 = 1e-11;
+const MIN_PIVOT: f64 = 1e-11;
 
 /// The `x` with every `|x[j]| ≤ 1` that makes the largest `|errors[i] + Σ slopes[j][i]·x[j]|` least, and
 /// that least value: the linear program's dual simplex, which for this problem is the exchange
@@ -19,7 +19,7 @@ const LEAST_PIVOT: f64 = 1e-11;
 pub(super) fn least_maximum(errors: &[f64], slopes: &[Vec<f64>]) -> Option<(Vec<f64>, f64)> {
     let mut exchange = Exchange::at_a_corner(errors, slopes);
     let mut residuals = Vec::new();
-    for _ in 0..MOST_EXCHANGES * (slopes.len() + 1) {
+    for _ in 0..MAX_EXCHANGES * (slopes.len() + 1) {
         let point = exchange.point();
         let (x, least) = point.split_at(slopes.len());
         let Some(violated) = exchange.most_violated(x, least[0], &mut residuals) else {
@@ -123,7 +123,7 @@ impl<'a> Exchange<'a> {
         let weights: Vec<f64> = self.inverse.iter().map(dot).collect();
         let ratio = |leaving: usize| self.inverse[leaving][last].max(0.0) / weights[leaving];
         let leaving = (0..=last)
-            .filter(|&row| weights[row] > LEAST_PIVOT)
+            .filter(|&row| weights[row] > MIN_PIVOT)
             .min_by(|&a, &b| ratio(a).total_cmp(&ratio(b)))?;
         let entering: Vec<f64> =
             self.inverse[leaving].iter().map(|entry| entry / weights[leaving]).collect();

@@ -8,14 +8,14 @@ use crate::program::Draft;
 
 /// The trust region's radius, relative to each constant: at first, and its bounds.
 const FIRST_RADIUS: f64 = 0.1;
-const LEAST_RADIUS: f64 = 1e-6;
-const MOST_RADIUS: f64 = 2.0;
+const MIN_RADIUS: f64 = 1e-6;
+const MAX_RADIUS: f64 = 2.0;
 
 /// Where a linear program promises less than this share, it was the last.
-const LEAST_GAIN: f64 = 1e-4;
+const MIN_GAIN: f64 = 1e-4;
 
 /// Constants are moved as if at least this large.
-const LEAST_SCALE: f64 = 1e-2;
+const MIN_SCALE: f64 = 1e-2;
 
 /// Errors of all samples and outputs, and their derivatives by the constants, times the constants' scale.
 #[derive(Default)]
@@ -42,7 +42,7 @@ impl Linearised {
         let matters = |constant: &usize| {
             entries.iter().flatten().any(|&(parameter, _)| usize::from(parameter) == *constant)
         };
-        let scale = |constant: usize| f64::from(program.consts[constant].abs()).max(LEAST_SCALE);
+        let scale = |constant: usize| f64::from(program.consts[constant].abs()).max(MIN_SCALE);
         self.constants = (0..program.consts.len())
             .filter(matters)
             .map(|constant| (constant, scale(constant)))
@@ -107,7 +107,7 @@ pub(super) fn by_linear_programs(
     let mut linear = Linearised::default();
     let mut stale = true;
     for _ in 0..most {
-        let done = !best.is_finite() || best == 0.0 || radius < LEAST_RADIUS;
+        let done = !best.is_finite() || best == 0.0 || radius < MIN_RADIUS;
         if done || fitter.is_cut(samples) {
             break;
         }
@@ -115,7 +115,7 @@ pub(super) fn by_linear_programs(
             linear.assign(fitter, program, samples, is_free, &mut values);
         }
         let Some((step, least)) = linear.step(radius) else { break };
-        if least > best * (1.0 - LEAST_GAIN) {
+        if least > best * (1.0 - MIN_GAIN) {
             break;
         }
         trial.copy_from(program);
@@ -135,7 +135,7 @@ pub(super) fn by_linear_programs(
             gain if gain > 0.0 => 0.5,
             _ => 0.25,
         };
-        radius = (radius * change).min(MOST_RADIUS);
+        radius = (radius * change).min(MAX_RADIUS);
     }
     best
 }

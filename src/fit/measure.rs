@@ -29,7 +29,7 @@ impl Measure {
 
     /// What is made small where nothing else is asked for: weights that the data have are meant.
     pub fn usual(split: &Split) -> Measure {
-        match (split.free.is_empty(), split.weights.is_empty()) {
+        match (split.dead_zone.is_empty(), split.weights.is_empty()) {
             (false, _) => Measure::Visible,
             (true, false) => Measure::Weighted,
             (true, true) => Measure::Rmse,
@@ -50,7 +50,7 @@ impl Measure {
             Measure::Rmse | Measure::Max | Measure::Relative => count,
         };
         for (output, unit) in units.iter().enumerate().take(samples.outputs()) {
-            let by_unit = (1.0 / unit.clamp(LEAST_UNIT, 1.0 / LEAST_UNIT).powi(2)) as f32;
+            let by_unit = (1.0 / unit.clamp(MIN_UNIT, 1.0 / MIN_UNIT).powi(2)) as f32;
             let given = samples.weights(output).iter();
             let weights: Vec<f32> = match self {
                 Measure::Weighted | Measure::Visible => given.map(|w| w * by_unit).collect(),
@@ -60,9 +60,9 @@ impl Measure {
                 }
             };
             samples.set_weights(output, &weights);
-            if let (Measure::Visible, Some(free)) = (self, split.free.get(output)) {
-                let free: Vec<f32> = rows.iter().map(|&row| free[row as usize]).collect();
-                samples.set_free(output, &free);
+            if let (Measure::Visible, Some(dead_zone)) = (self, split.dead_zone.get(output)) {
+                let dead_zone: Vec<f32> = rows.iter().map(|&row| dead_zone[row as usize]).collect();
+                samples.set_dead_zone(output, &dead_zone);
             }
         }
         samples.set_total_weight(total);
@@ -77,7 +77,7 @@ impl Measure {
 }
 
 /// Weights by units beyond this would leave `f32`.
-const LEAST_UNIT: f64 = 1.0 / (1u64 << 60) as f64;
+const MIN_UNIT: f64 = 1.0 / (1u64 << 60) as f64;
 
 /// `1 / y²`, floored by the largest value of the whole column.
 fn relative(targets: &[f32], column: &[f32]) -> Vec<f32> {

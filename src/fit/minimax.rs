@@ -2,7 +2,7 @@
 
 use super::linear_programs::by_linear_programs;
 use super::rounding::Comparison;
-use super::shorten::{MOST_DIGITS, rounded};
+use super::shorten::{MAX_DIGITS, rounded};
 use super::{Fitter, Stop};
 use crate::eval::{Samples, Tape, Values};
 use crate::program::{Draft, Program};
@@ -77,7 +77,7 @@ fn by_weights(
         }
         for (output, weights) in weights.iter_mut().enumerate() {
             for (weight, error) in weights.iter_mut().zip(scaled(samples, &values, output)) {
-                *weight *= (error.abs() / mean) as f32 + LEAST_GROWTH;
+                *weight *= (error.abs() / mean) as f32 + MIN_GROWTH;
             }
         }
         normalise(&mut weights);
@@ -101,7 +101,7 @@ const FAR: f64 = 3.0;
 const NEAR: f64 = 1.3;
 
 /// So that a sample that happens to be met exactly can come back.
-const LEAST_GROWTH: f32 = 0.05;
+const MIN_GROWTH: f32 = 0.05;
 
 /// Rounds constants one after the other, each to 0 or the fewest decimal digits with which the largest
 /// error stays within `(1 + allowance)` of what it was, or below the data's own rounding. Gives that error.
@@ -118,7 +118,7 @@ pub fn shorten_minimax(
     let limit = comparison.error(fitter, program) * (1.0 + allowance);
     for constant in 0..program.consts.len() {
         let exact = program.consts[constant];
-        for digits in 0..=MOST_DIGITS {
+        for digits in 0..=MAX_DIGITS {
             if fitter.is_cut(samples) {
                 return errors(fitter, program, samples, &mut Values::default()).1;
             }

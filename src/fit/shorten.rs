@@ -11,7 +11,7 @@ const MAKE_UP: Stop = Stop { max_steps: 6, min_gain: 1e-4 };
 const NOTHING: Stop = Stop { max_steps: 0, min_gain: 0.0 };
 
 /// Digits beyond which an `f32` constant is left as it is.
-pub(super) const MOST_DIGITS: usize = 7;
+pub(super) const MAX_DIGITS: usize = 7;
 
 /// Rounds constants one after the other, each to 0 or the fewest decimal digits with which the sum of
 /// squares, the remaining constants fitted again, stays within `(1 + allowance)` of what it was, or below the
@@ -42,7 +42,7 @@ pub fn shorten_free(
     let mut trial = program.clone();
     for (place, &constant) in order.iter().enumerate() {
         let later = &order[place + 1..];
-        for digits in 0..=MOST_DIGITS {
+        for digits in 0..=MAX_DIGITS {
             if fitter.is_cut(samples) {
                 return loss;
             }

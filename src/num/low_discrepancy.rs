@@ -12,9 +12,9 @@
 use rand::{Rng, RngExt};
 
 /// The most dimensions of [`halton`], [`hammersley`] and [`Sobol`].
-pub const MOST_DIMENSIONS: usize = 16;
+pub const MAX_DIMENSIONS: usize = 16;
 
-const PRIMES: [u64; MOST_DIMENSIONS] = [2, 3, 5, 7, 11, 13, 17, 19, 23, 29, 31, 37, 41, 43, 47, 53];
+const PRIMES: [u64; MAX_DIMENSIONS] = [2, 3, 5, 7, 11, 13, 17, 19, 23, 29, 31, 37, 41, 43, 47, 53];
 
 /// The digits of `index` in a base of at least 2, mirrored at the point: 6 =
 /// 110₂ becomes 0.011₂ = 3/8.
@@ -31,7 +31,7 @@ pub fn radical_inverse(base: u64, mut index: u64) -> f64 {
 
 /// Point `index` of Halton's sequence: radical inverses in the first primes.
 pub fn halton<const D: usize>(index: u64) -> [f64; D] {
-    const { assert!(D <= MOST_DIMENSIONS) };
+    const { assert!(D <= MAX_DIMENSIONS) };
     std::array::from_fn(|axis| radical_inverse(PRIMES[axis], index))
 }
 
@@ -39,7 +39,7 @@ pub fn halton<const D: usize>(index: u64) -> [f64; D] {
 /// radical inverses. Lower discrepancy than [`halton`], but `count` must be
 /// known before.
 pub fn hammersley<const D: usize>(index: u64, count: u64) -> [f64; D] {
-    const { assert!(D <= MOST_DIMENSIONS) };
+    const { assert!(D <= MAX_DIMENSIONS) };
     std::array::from_fn(|axis| match axis {
         0 => index as f64 / count as f64,
         _ => radical_inverse(PRIMES[axis - 1], index),
@@ -52,7 +52,7 @@ const BITS: usize = 53;
 /// For the second and later dimensions: coefficients of the primitive
 /// polynomial between its first and last, as bits, and the first direction
 /// integers, as many as its degree.
-const JOE_KUO: [(u64, &[u64]); MOST_DIMENSIONS - 1] = [
+const JOE_KUO: [(u64, &[u64]); MAX_DIMENSIONS - 1] = [
     (0, &[1]),
     (1, &[1, 3]),
     (1, &[1, 3, 1]),
@@ -86,7 +86,7 @@ impl<const D: usize> Default for Sobol<D> {
 impl<const D: usize> Sobol<D> {
     /// Computes the direction numbers; make one and use it for many points.
     pub fn new() -> Sobol<D> {
-        const { assert!(D <= MOST_DIMENSIONS) };
+        const { assert!(D <= MAX_DIMENSIONS) };
         Sobol { directions: std::array::from_fn(directions) }
     }
 
@@ -205,9 +205,9 @@ mod tests {
 
     #[test]
     fn sobol_fills_every_interval_of_every_axis_once() {
-        let sobol = Sobol::<MOST_DIMENSIONS>::new();
+        let sobol = Sobol::<MAX_DIMENSIONS>::new();
         let points: Vec<_> = (0..POINTS).map(|index| sobol.point(index)).collect();
-        for axis in 0..MOST_DIMENSIONS {
+        for axis in 0..MAX_DIMENSIONS {
             let mut hits = vec![0; POINTS as usize];
             points.iter().for_each(|p| hits[(p[axis] * POINTS as f64) as usize] += 1);
             assert!(hits.iter().all(|&hits| hits == 1), "axis {axis}");

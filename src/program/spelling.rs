@@ -48,13 +48,13 @@ pub(crate) const fn atom(template: &'static str) -> Spelling {
 
 /// Where an argument stands in a template, and how tightly it must bind there.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) struct Place {
+pub(crate) struct ArgumentPlace {
     pub argument: usize,
     pub least: Binding,
 }
 
 /// A template's places, each after the text before it, and the text after the last.
-pub(crate) fn pieces(template: &str) -> (Vec<(&str, Place)>, &str) {
+pub(crate) fn pieces(template: &str) -> (Vec<(&str, ArgumentPlace)>, &str) {
     let mut pieces = Vec::new();
     let (mut start, mut from) = (0, 0);
     while let Some(brace) = template[from..].find('{').map(|i| from + i) {
@@ -71,7 +71,7 @@ pub(crate) fn pieces(template: &str) -> (Vec<(&str, Place)>, &str) {
 }
 
 /// The place at the start of the text, and its length.
-pub(crate) fn place(text: &str) -> Option<(Place, usize)> {
+pub(crate) fn place(text: &str) -> Option<(ArgumentPlace, usize)> {
     let (name, end) = match text.as_bytes() {
         [b'{', name @ b'a'..=b'd', b'}', ..] => (*name, 2),
         [b'{', name @ b'a'..=b'd', _, b'}', ..] => (*name, 3),
@@ -86,7 +86,7 @@ pub(crate) fn place(text: &str) -> Option<(Place, usize)> {
         "!" => Binding::Atom,
         _ => return None,
     };
-    Some((Place { argument: usize::from(name - b'a'), least }, end + 1))
+    Some((ArgumentPlace { argument: usize::from(name - b'a'), least }, end + 1))
 }
 
 /// What a reader of a value writes for it.
@@ -190,8 +190,8 @@ mod tests {
     fn braces_around_no_argument_are_text() {
         let (places, rest) = pieces(r"\frac{{a}}{{b+}} {e} {a.} { d }");
         let [("\\frac{", a), ("}{", b)] = places[..] else { panic!("{places:?}") };
-        assert_eq!(a, Place { argument: 0, least: Binding::Select });
-        assert_eq!(b, Place { argument: 1, least: Binding::Sum });
+        assert_eq!(a, ArgumentPlace { argument: 0, least: Binding::Select });
+        assert_eq!(b, ArgumentPlace { argument: 1, least: Binding::Sum });
         assert_eq!(rest, "} {e} {a.} { d }");
         assert_eq!(MAX_ARITY, ["a", "b", "c", "d"].len());
     }

@@ -3,7 +3,7 @@
 use super::Error;
 use super::plot::Theme;
 use super::spheres::{
-    DIFFERENCE_TIMES, Environment, Labels, Material, SphereTable, Spheres, View, difference,
+    DIFFERENCE_TIMES, Environment, Labels, Material, Settings, SphereTable, Spheres, difference,
     displayed_rmse, picture,
 };
 use crate::dataset::Dataset;
@@ -19,7 +19,7 @@ pub struct Drawing<'a> {
     pub run: &'a Run,
     pub dataset: &'a Dataset,
     pub environment: Environment,
-    pub view: View,
+    pub settings: Settings,
     pub roughness: &'a [f32],
     pub size: usize,
 }
@@ -52,9 +52,9 @@ impl Drawing<'_> {
         })?;
         let mut rows = [const { Vec::new() }; 3];
         for &roughness in self.roughness {
-            let view = View { roughness, ..self.view };
-            let truth = spheres.shade(Material::Table(&table), &view, self.size);
-            let made = spheres.shade(Material::Formula(formula), &view, self.size);
+            let settings = Settings { roughness, ..self.settings };
+            let truth = spheres.shade(Material::Table(&table), &settings, self.size);
+            let made = spheres.shade(Material::Formula(formula), &settings, self.size);
             let apart = difference(&truth, &made);
             rows.iter_mut().zip([truth, made, apart]).for_each(|(row, square)| row.push(square));
         }
@@ -68,7 +68,7 @@ impl Drawing<'_> {
     }
 
     fn labels(&self, name: &str, uses_f0: bool, theme: Theme) -> Labels {
-        let View { f0, omega, exposure, .. } = self.view;
+        let Settings { f0, omega, exposure, .. } = self.settings;
         let names = self.run.names();
         let mut given = Vec::new();
         if Spheres::has_environments(&names.outputs) {

@@ -25,7 +25,7 @@ use crate::deadline::Deadline;
 use crate::run::{
     Outcome, RecordError, Run, Subject, SubjectError, Trace, load_front, load_run, load_trace,
 };
-use crate::search::{Front, Published};
+use crate::search::{Front, ScoredIncumbent};
 use std::path::Path;
 use std::sync::Arc;
 
@@ -40,7 +40,7 @@ pub struct Report {
     pub minimax: Front,
     /// The run's columns, if the data are still what they were.
     pub dataset: Option<Arc<Dataset>>,
-    pub published: Vec<Published>,
+    pub published: Vec<ScoredIncumbent>,
     /// How the search went on, if that was recorded.
     pub trace: Option<Trace>,
     /// What evaluations take on some processors, if that was measured.
@@ -58,7 +58,7 @@ pub struct Written {
 
 impl Report {
     /// Of a search that has just ended.
-    pub fn of(outcome: &Outcome, dataset: Arc<Dataset>, published: Vec<Published>) -> Report {
+    pub fn of(outcome: &Outcome, dataset: Arc<Dataset>, published: Vec<ScoredIncumbent>) -> Report {
         let Outcome { run, front, minimax, trace, .. } = outcome.clone();
         let trace = Some(Trace::parse(&trace).expect("as it was just written"));
         let dataset = Some(dataset);

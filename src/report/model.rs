@@ -1,6 +1,6 @@
 //! What the page of a run shows.
 
-use super::page::{self, Axis, Code, Formula, Page, PageFront, PageSpheres, Table};
+use super::page::{self, Code, CostAxis, Formula, Page, PageFront, PageSpheres, SampleTable};
 use super::timing::Timing;
 use super::{Error, Report};
 use crate::cost::Profile;
@@ -10,7 +10,7 @@ use crate::eval::OutputError;
 use crate::fit::Measure;
 use crate::program::Program;
 use crate::run::{self, Run};
-use crate::search::{Front, FrontMember, Published};
+use crate::search::{Front, FrontMember, ScoredIncumbent};
 use crate::wording::{axis_title, cut};
 
 /// The page.
@@ -37,7 +37,7 @@ pub(super) fn page(report: &Report) -> Result<Page, Error> {
             .as_ref()
             .map(|data| page::lookup_tables(&data.search, outputs))
             .unwrap_or_default(),
-        samples: dataset.as_ref().map(|data| Table::of(&data.search, data.inputs.len())),
+        samples: dataset.as_ref().map(|data| SampleTable::of(&data.search, data.inputs.len())),
         trace: trace.clone(),
         spheres: dataset.as_deref().and_then(PageSpheres::of),
         languages: Language::ALL.iter().map(|language| language.name()).collect(),
@@ -64,14 +64,14 @@ fn profiles(run: &Run) -> Result<(Vec<Profile>, usize), Error> {
     Ok((profiles, own))
 }
 
-fn cycles(profile: &Profile) -> Axis {
+fn cycles(profile: &Profile) -> CostAxis {
     let (name, description) = (profile.name.clone(), profile.description.clone());
-    Axis { name, description, unit: "cycles" }
+    CostAxis { name, description, unit: "cycles" }
 }
 
-fn nanoseconds(timing: &Timing) -> Axis {
+fn nanoseconds(timing: &Timing) -> CostAxis {
     let (name, description) = (timing.device.clone(), timing.method.clone());
-    Axis { name, description, unit: "ns an evaluation" }
+    CostAxis { name, description, unit: "ns an evaluation" }
 }
 
 /// What formulas are priced by.
@@ -103,7 +103,7 @@ impl Priced<'_> {
         }
     }
 
-    fn published(&self, known: &Published) -> Formula {
+    fn published(&self, known: &ScoredIncumbent) -> Formula {
         Formula {
             name: Some(known.name.clone()),
             code: self.code(&known.member.program),

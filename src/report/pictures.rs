@@ -2,14 +2,14 @@
 
 use super::maps::{self, Maps, OutputMaps, Plane};
 use super::plot::{self, FrontPlot, Line, LinePlot, Theme};
-use super::spheres::{Environment, View};
+use super::spheres::{Environment, Settings};
 use super::{Drawing, Error, ROUGHNESSES, Report, SIZE, write_file};
 use crate::dataset::Dataset;
 use crate::deadline::Deadline;
 use crate::eval::{Evaluator, Samples, Tape};
 use crate::program::Program;
 use crate::run::{self, Run, Trace};
-use crate::search::{Front, FrontMember, Published};
+use crate::search::{Front, FrontMember, ScoredIncumbent};
 use crate::wording::{axis_title, cycles_text, error_text};
 use std::path::Path;
 
@@ -40,7 +40,7 @@ pub(super) fn write(report: &Report, folder: &Path, deadline: &Deadline) -> Resu
         run,
         dataset,
         environment: Environment::default(),
-        view: View::default(),
+        settings: Settings::default(),
         roughness: &ROUGHNESSES,
         size: SIZE.into(),
     };
@@ -57,7 +57,7 @@ pub fn write_plots(
     folder: &Path,
     run: &Run,
     front: &Front,
-    incumbents: &[Published],
+    incumbents: &[ScoredIncumbent],
 ) -> Result<(), Error> {
     let measure = front.measure;
     let error = |member: &FrontMember| member.search_error().of(measure);
@@ -113,7 +113,7 @@ fn write_convergence(report: &Report, trace: &Trace, folder: &Path) -> Result<()
 fn maps(report: &Report, dataset: &Dataset, knee: &FrontMember) -> Option<Maps> {
     let plane = Plane::of(&dataset.search)?;
     let inputs = dataset.inputs.len();
-    let rmse = |known: &&Published| known.member.search_error().rmse;
+    let rmse = |known: &&ScoredIncumbent| known.member.search_error().rmse;
     let finite = report.published.iter().filter(|known| rmse(known).is_finite());
     let best = finite.min_by(|a, b| rmse(a).total_cmp(&rmse(b)));
     let described = |name: &str, member: &FrontMember| {

@@ -14,10 +14,10 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;
 
 /// Subexpressions of more operations, written out as trees, are not looked at.
-const MOST_OPERATIONS: u32 = 8;
+const MAX_OPERATIONS: u32 = 8;
 
 /// Subexpressions that are kept on disk.
-const MOST_KEPT: usize = 1000;
+const MAX_KEPT: usize = 1000;
 
 /// Counts of formulas by the inputs and subexpressions that they contain.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
@@ -79,7 +79,7 @@ impl Census {
         let operations = tree_operations(&draft);
         let mut counted = BTreeSet::new();
         for (i, instr) in draft.instrs.iter().enumerate() {
-            if operations[i] > MOST_OPERATIONS || moved(instr).is_some() {
+            if operations[i] > MAX_OPERATIONS || moved(instr).is_some() {
                 continue;
             }
             let found = self.expressions.entry(hashes[i]).or_insert_with(|| Found {
@@ -141,7 +141,7 @@ impl Census {
     pub(super) fn pruned(mut self) -> Census {
         let mut counts: Vec<u64> = self.expressions.values().map(|found| found.count).collect();
         counts.sort_unstable_by(|a, b| b.cmp(a));
-        let least = counts.get(MOST_KEPT).map_or(0, |count| count + 1);
+        let least = counts.get(MAX_KEPT).map_or(0, |count| count + 1);
         self.expressions.retain(|_, found| found.count >= least);
         self
     }

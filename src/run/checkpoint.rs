@@ -19,7 +19,7 @@ const LAYOUT: u32 = 7;
 const MAGIC: &str = "LGPSTATE";
 
 /// The most bytes that are read.
-const MOST_BYTES: u64 = 2 << 30;
+const MAX_BYTES: u64 = 2 << 30;
 
 /// How far a search came, and what is known of its run so far.
 #[derive(Clone, Debug)]
@@ -106,7 +106,7 @@ impl Checkpoint {
     /// Those of [`Checkpoint::from_bytes`], or of reading the file.
     pub fn load(folder: &Path) -> Result<Checkpoint, RecordError> {
         let path = folder.join(super::folder::CHECKPOINT);
-        Checkpoint::from_bytes(&path, &read_bytes(&path, MOST_BYTES)?)
+        Checkpoint::from_bytes(&path, &read_bytes(&path, MAX_BYTES)?)
     }
 }
 

@@ -59,7 +59,7 @@ const MADE_OF_IT: [&str; 11] = [
 ];
 
 /// The most bytes that are read of a text file.
-const MOST_BYTES: u64 = 256 << 20;
+const MAX_BYTES: u64 = 256 << 20;
 
 /// What a folder holds.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -315,7 +315,7 @@ pub fn load_text(folder: &Path, run: &Run, file: &str) -> Result<Option<String>,
 
 /// The text of a file, which must not be too large.
 pub(super) fn read(path: &Path) -> Result<String, RecordError> {
-    let bytes = read_bytes(path, MOST_BYTES)?;
+    let bytes = read_bytes(path, MAX_BYTES)?;
     String::from_utf8(bytes).map_err(|error| {
         let valid = &error.as_bytes()[..error.utf8_error().valid_up_to()];
         RecordError::Damaged {

@@ -21,7 +21,7 @@ const PAUSE: Duration = Duration::from_secs(1);
 const CHECKPOINT_INTERVAL: Duration = Duration::from_secs(15);
 
 /// Where all formulas up to some cost were asked for, so many structures at most: a few minutes.
-const MOST_ENUMERATED: usize = 200_000;
+const MAX_ENUMERATED: usize = 200_000;
 
 /// A search under way, and what becomes of it.
 ///
@@ -261,7 +261,7 @@ impl Session {
         }
         self.checkpoint();
         let asked = self.run.exhaustive;
-        let (cost, most) = asked.map_or(Enumeration::USUAL, |cost| (cost, MOST_ENUMERATED));
+        let (cost, most) = asked.map_or(Enumeration::USUAL, |cost| (cost, MAX_ENUMERATED));
         self.search.enumerate_until(cost, most, &starting);
         let is_known = self.search.enumeration().is_some() || starting.is_past();
         if asked.is_some() && !is_known {

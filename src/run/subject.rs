@@ -2,9 +2,9 @@
 
 use super::Run;
 use crate::cost::Profile;
-use crate::dataset::{self, Comparable, Dataset, incumbents_for, load_incumbents};
+use crate::dataset::{self, Dataset, ParsedIncumbent, incumbents_for, load_incumbents};
 use crate::scene::{self, Scene};
-use crate::search::{FrontMember, Published};
+use crate::search::{FrontMember, ScoredIncumbent};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
@@ -78,7 +78,7 @@ impl Subject {
     }
 
     /// The incumbents beside a run's dataset, costed as the run does, if they can be read.
-    pub fn published_for(&self, run: &Run) -> Option<Vec<Published>> {
+    pub fn published_for(&self, run: &Run) -> Option<Vec<ScoredIncumbent>> {
         self.published(&run.dataset, &run.profile()?).ok()
     }
 
@@ -87,7 +87,7 @@ impl Subject {
         &self,
         path: &Path,
         profile: &Profile,
-    ) -> Result<Vec<Published>, SubjectError> {
+    ) -> Result<Vec<ScoredIncumbent>, SubjectError> {
         let names = self.dataset.names();
         let comparable = match &self.scene {
             Some(scene) => self.incumbents_in(scene, path)?,
@@ -95,7 +95,7 @@ impl Subject {
         };
         let whole = comparable.into_iter().filter(|known| known.outputs == names.outputs);
         Ok(whole
-            .map(|known| Published {
+            .map(|known| ScoredIncumbent {
                 name: known.incumbent.name,
                 member: FrontMember::new(known.program, &self.dataset, profile, &names),
             })
@@ -104,7 +104,11 @@ impl Subject {
 
     /// The dataset's incumbents as the scene makes them, and those that were made for the scene:
     /// `incumbents/<dataset>_<scene>.ron` beside the dataset's file.
-    fn incumbents_in(&self, scene: &Scene, path: &Path) -> Result<Vec<Comparable>, SubjectError> {
+    fn incumbents_in(
+        &self,
+        scene: &Scene,
+        path: &Path,
+    ) -> Result<Vec<ParsedIncumbent>, SubjectError> {
         let view = scene.over(&self.whole)?;
         let names = self.dataset.names();
         let mut found = Vec::new();
@@ -112,7 +116,7 @@ impl Subject {
             for known in incumbents_for(path, &self.whole)? {
                 let combined = view.program(&known.program, &known.outputs, &names.outputs);
                 let outputs = names.outputs.clone();
-                found.extend(combined.map(|program| Comparable { program, outputs, ..known }));
+                found.extend(combined.map(|program| ParsedIncumbent { program, outputs, ..known }));
             }
         }
         let folder = path.parent().unwrap_or(Path::new("")).join("incumbents");

@@ -18,9 +18,9 @@ struct Shares {
 const STARTING: f64 = 0.25;
 
 /// Of the time, at most, for all that follows the search, for verdicts, and for files.
-const MOST_FINISHING: f64 = 0.5;
-const MOST_JUDGING: f64 = 0.2;
-const MOST_WRITING: f64 = 0.25;
+const MAX_FINISHING: f64 = 0.5;
+const MAX_JUDGING: f64 = 0.2;
+const MAX_WRITING: f64 = 0.25;
 
 /// Of the time, for the front for the maximum error; but no more than a second and so many times what polishing
 /// takes, where that is known (8 on the DFG, 24 on a small table of nine inputs).
@@ -37,19 +37,19 @@ const A_REHEARSAL: f64 = 0.05;
 
 impl Shares {
     fn judging_ends(&self) -> f64 {
-        self.total - self.writing.min(MOST_WRITING * self.total)
+        self.total - self.writing.min(MAX_WRITING * self.total)
     }
 
     /// Verdicts of both fronts begin.
     fn polishing_ends(&self) -> f64 {
-        self.judging_ends() - (2.0 * self.rehearsal.judge).min(MOST_JUDGING * self.total)
+        self.judging_ends() - (2.0 * self.rehearsal.judge).min(MAX_JUDGING * self.total)
     }
 
     fn search_ends(&self) -> f64 {
         let known = Some(self.rehearsal.polish).filter(|polish| *polish > 0.0);
         let most = known.map_or(f64::INFINITY, |polish| 1.0 + SECOND_TO_FIRST * polish);
         let polishing = self.rehearsal.polish + (SECOND_FRONT * self.total).min(most);
-        (self.polishing_ends() - polishing).max((1.0 - MOST_FINISHING) * self.total)
+        (self.polishing_ends() - polishing).max((1.0 - MAX_FINISHING) * self.total)
     }
 }
 

@@ -80,7 +80,7 @@ fn on_grid(split: &Split, axis: usize, value: f64) -> Result<Split, f64> {
             )
             .collect(),
         weights: if split.weights.is_empty() { Vec::new() } else { taken(&split.weights) },
-        free: Vec::new(),
+        dead_zone: Vec::new(),
         standard_errors: split.standard_errors.iter().map(taken).collect(),
         grid,
     })

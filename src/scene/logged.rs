@@ -4,7 +4,7 @@ use super::histogram::bin;
 use super::{Error, Histogram, Scene};
 
 /// Inputs that one histogram may hold together by default: with more, most bins of a log are empty.
-const MOST_JOINT: usize = 3;
+const MAX_JOINT: usize = 3;
 
 /// A column of a log: an input's value in each pixel.
 #[derive(Clone, Copy, Debug)]
@@ -54,7 +54,7 @@ impl Scene {
                 false => varying.push((*column, [shortest(low), shortest(high)])),
             }
         }
-        let groups: Vec<&[(Logged, [f64; 2])]> = match joint && varying.len() <= MOST_JOINT {
+        let groups: Vec<&[(Logged, [f64; 2])]> = match joint && varying.len() <= MAX_JOINT {
             true => vec![&varying[..]],
             false => varying.chunks(1).collect(),
         };

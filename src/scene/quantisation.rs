@@ -60,12 +60,12 @@ pub(super) struct Steps {
 impl Steps {
     /// The error of `y` that moves what is stored by half a step: half a step over the tone map's
     /// slope there. Nothing where that is not a number.
-    pub fn free(&self, y: f32) -> Option<f32> {
+    pub fn dead_zone(&self, y: f32) -> Option<f32> {
         let h = STEP * f64::from(y).abs().max(1.0);
         let shown = |at: f64| Double.evaluate(&self.tone_map, &[at])[0];
         let slope = (shown(f64::from(y) + h) - shown(f64::from(y) - h)) / (2.0 * h);
-        let free = self.half / slope.abs();
-        (!free.is_nan()).then(|| free.min(f32::MAX.into()) as f32)
+        let dead_zone = self.half / slope.abs();
+        (!dead_zone.is_nan()).then(|| dead_zone.min(f32::MAX.into()) as f32)
     }
 }
 
@@ -82,11 +82,11 @@ mod tests {
             let found = f64::from(found.unwrap());
             assert!((found / expected - 1.0).abs() < 1e-4, "{found} for {expected}");
         };
-        near(steps(8, "").free(0.3), 0.5 / 255.0);
+        near(steps(8, "").dead_zone(0.3), 0.5 / 255.0);
         // d/dy y/(1 + y) = 1/(1 + y)²
-        near(steps(10, "y/(1 + y)").free(3.0), 16.0 * 0.5 / 1023.0);
-        assert_eq!(steps(8, "saturate(y)").free(2.0), Some(f32::MAX));
-        assert_eq!(steps(8, "sqrt(y)").free(-1.0), None);
+        near(steps(10, "y/(1 + y)").dead_zone(3.0), 16.0 * 0.5 / 1023.0);
+        assert_eq!(steps(8, "saturate(y)").dead_zone(2.0), Some(f32::MAX));
+        assert_eq!(steps(8, "sqrt(y)").dead_zone(-1.0), None);
         assert!(Quantisation { bits: 0, tone_map: String::new() }.steps("s").is_err());
         assert!(Quantisation { bits: 8, tone_map: "x".into() }.steps("s").is_err());
     }

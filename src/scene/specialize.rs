@@ -58,7 +58,7 @@ const SUBSET: usize = 512;
 const PROMISING: usize = 24;
 
 /// Cycles that a removal gets credit for. The last step, to a constant, would look cheap too early.
-const MOST_CREDITED: f64 = 4.0;
+const MAX_CREDITED: f64 = 4.0;
 
 /// Formulas beside the way whose removals are looked at, at most.
 const EXPANSIONS: usize = 200;
@@ -212,7 +212,7 @@ impl<'a> Work<'a> {
         let found = removals(draft, &self.subset, self.profile);
         let least = self.negligible();
         let price = |removal: &Removal, before: f64, after: f64| {
-            let saved = (cost - removal.cost).min(MOST_CREDITED);
+            let saved = (cost - removal.cost).min(MAX_CREDITED);
             (after.max(least) / before.max(least)).ln() / saved
         };
         let share = self.subset.total_weight() / self.all.total_weight();

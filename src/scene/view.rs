@@ -153,13 +153,13 @@ impl<'a> View<'a> {
             columns.push(combined);
             standard_errors.extend((!errors.is_empty()).then_some(errors));
         }
-        let mut free = Vec::new();
+        let mut dead_zone = Vec::new();
         if let Some(steps) = &self.steps {
             for ((output, _), values) in self.outputs.iter().zip(&columns[open..]) {
-                free.push(self.free_errors(which, steps, output, values)?);
+                dead_zone.push(self.dead_zone(which, steps, output, values)?);
             }
         }
-        Ok(Split { columns, free, standard_errors, ..split })
+        Ok(Split { columns, dead_zone, standard_errors, ..split })
     }
 
     /// The standard error of an expression of outputs that err independently, to first order.
@@ -183,15 +183,15 @@ impl<'a> View<'a> {
         errors.sum::<f64>().sqrt()
     }
 
-    fn free_errors(
+    fn dead_zone(
         &self,
         which: &'static str,
         steps: &Steps,
         output: &str,
         values: &[f32],
     ) -> Result<Vec<f32>, Error> {
-        let free = |(row, &value): (usize, &f32)| {
-            steps.free(value).ok_or_else(|| Error::ToneMap {
+        let dead_zone = |(row, &value): (usize, &f32)| {
+            steps.dead_zone(value).ok_or_else(|| Error::ToneMap {
                 scene: self.scene.name.clone(),
                 output: output.to_owned(),
                 value,
@@ -200,7 +200,7 @@ impl<'a> View<'a> {
                 dataset: self.whole.name.clone(),
             })
         };
-        values.iter().enumerate().map(free).collect()
+        values.iter().enumerate().map(dead_zone).collect()
     }
 
     /// What the outputs' expressions read on a row of a split whose fixed inputs are left out.

@@ -83,14 +83,14 @@ impl FrontMember {
 
 /// A published formula, scored as a member would be.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Published {
+pub struct ScoredIncumbent {
     pub name: String,
     pub member: FrontMember,
 }
 
 /// An error smaller than that of the cheapest member by more than this counts as none where logarithms are
 /// compared.
-const LEAST_ERROR: f64 = 1e-9;
+const MIN_ERROR: f64 = 1e-9;
 
 /// Formulas by rising cost, none dominated in cost and error: the validation split's, but for the
 /// maximum error, which is judged where it was made small.
@@ -174,7 +174,7 @@ impl Front {
     /// error: past it, cycles buy less.
     pub fn knee(&self) -> Option<&FrontMember> {
         let (first, last) = (self.members.first()?, self.members.last()?);
-        let least = first.deciding_error(self.measure) * LEAST_ERROR;
+        let least = first.deciding_error(self.measure) * MIN_ERROR;
         let height = |member: &FrontMember| {
             member.deciding_error(self.measure).max(least).max(f64::MIN_POSITIVE).ln()
         };

@@ -9,7 +9,7 @@ use std::fmt;
 use std::str::FromStr;
 
 /// The most cycles that [`Goal::max_cost`] may be.
-pub const MOST_CYCLES: f64 = 1000.0;
+pub const MAX_CYCLES: f64 = 1000.0;
 
 /// What is asked of formulas.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -122,9 +122,9 @@ impl Goal {
     /// # Errors
     /// The first field that cannot be meant.
     pub fn check(&self, inputs: usize, outputs: usize) -> Result<(), String> {
-        if !(0.0..=MOST_CYCLES).contains(&self.max_cost) {
+        if !(0.0..=MAX_CYCLES).contains(&self.max_cost) {
             let max_cost = self.max_cost;
-            return Err(format!("`max_cost` is {max_cost}; it must be 0 to {MOST_CYCLES} cycles"));
+            return Err(format!("`max_cost` is {max_cost}; it must be 0 to {MAX_CYCLES} cycles"));
         }
         if self.transforms.len() > outputs {
             return Err("`transforms` are more than the outputs".into());

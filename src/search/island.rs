@@ -68,7 +68,7 @@ const KINDS: [Kind; 8] = [
 ];
 
 /// Of the cost budget, for the number of candidates.
-const LEAST_SHARE: f64 = 0.1;
+const MIN_SHARE: f64 = 0.1;
 
 /// Where families are kept apart, a bucket has this share of the size that it would have.
 const FAMILY_BUCKET: f64 = 0.34;
@@ -198,7 +198,7 @@ impl Island {
     /// cost: islands that spend less consider more, and none waits long for the others.
     fn candidates(&self, max_cost: f64, with_all_of_it: usize) -> usize {
         let share = self.population.max_cost / max_cost.max(1.0);
-        (with_all_of_it as f64 / share.clamp(LEAST_SHARE, 1.0).powi(2)) as usize
+        (with_all_of_it as f64 / share.clamp(MIN_SHARE, 1.0).powi(2)) as usize
     }
 
     /// Makes a child of the population, or a random draft where there is none, or for an immigrant. Gives

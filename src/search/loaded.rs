@@ -9,7 +9,7 @@ use crate::program::Draft;
 
 /// A search's formulas have at most [`MAX_INSTRUCTIONS`]; what is required of outputs and the inverses
 /// of transforms add a few.
-const MOST_INSTRUCTIONS: usize = 4 * MAX_INSTRUCTIONS;
+const MAX_FINISHED: usize = 4 * MAX_INSTRUCTIONS;
 
 impl FrontMember {
     /// Whether a search could have left it.
@@ -79,10 +79,10 @@ pub(super) fn check_draft(draft: &Draft, inputs: usize, outputs: usize) -> Resul
 }
 
 fn short(draft: &Draft) -> Result<(), String> {
-    match draft.instrs.len() <= MOST_INSTRUCTIONS {
+    match draft.instrs.len() <= MAX_FINISHED {
         true => Ok(()),
         false => Err(format!(
-            "a formula of {} operations; a search writes at most {MOST_INSTRUCTIONS}",
+            "a formula of {} operations; a search writes at most {MAX_FINISHED}",
             draft.instrs.len()
         )),
     }

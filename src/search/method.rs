@@ -3,7 +3,7 @@
 use serde::{Deserialize, Serialize};
 
 /// The most that [`Method::islands`] may be.
-pub const MOST_ISLANDS: usize = 256;
+pub const MAX_ISLANDS: usize = 256;
 
 /// How a problem is searched: with the seed, all that decides the course of a search.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -47,7 +47,7 @@ impl Method {
     /// # Errors
     /// The first field that cannot be meant.
     pub fn check(&self) -> Result<(), String> {
-        within("islands", self.islands, 1, MOST_ISLANDS)?;
+        within("islands", self.islands, 1, MAX_ISLANDS)?;
         within("candidates", self.candidates, 1, 1_000_000)?;
         within("bucket_size", self.bucket_size, 1, 1000)?;
         within("subset", self.subset, 1, u32::MAX as usize)?;

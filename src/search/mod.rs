@@ -26,10 +26,10 @@ mod vary;
 
 pub use enumerate::Enumeration;
 pub use finish::{Rehearsal, Work};
-pub use front::{Front, FrontMember, Published};
-pub use goal::{Goal, MOST_CYCLES, Transform};
+pub use front::{Front, FrontMember, ScoredIncumbent};
+pub use goal::{Goal, MAX_CYCLES, Transform};
 pub(crate) use loaded::not_negative;
-pub use method::{MOST_ISLANDS, Method};
+pub use method::{MAX_ISLANDS, Method};
 pub use problem::{Problem, ProblemBuilder, SetupError, USUAL_GPU, USUAL_GRAMMAR};
 pub use require::Requirement;
 

@@ -371,14 +371,14 @@ fn samples_for(requirement: &Requirement, dataset: &Dataset) -> Vec<Samples> {
     }
 }
 
-/// A split with some rows of another after its own; none of their errors are free, and they weigh one.
+/// A split with some rows of another after its own; they have no dead zone, and weigh one.
 fn with_rows(split: &Split, other: &Split, rows: &[u32]) -> Split {
     let mut extended = Split { grid: Vec::new(), ..split.clone() };
     for (to, from) in extended.columns.iter_mut().zip(&other.columns) {
         to.extend(rows.iter().map(|&row| from[row as usize]));
     }
     let length = extended.rows();
-    let beside = extended.free.iter_mut().chain(&mut extended.standard_errors);
+    let beside = extended.dead_zone.iter_mut().chain(&mut extended.standard_errors);
     beside.for_each(|column| column.resize(length, 0.0));
     if !extended.weights.is_empty() {
         extended.weights.resize(length, 1.0);

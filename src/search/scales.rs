@@ -88,7 +88,7 @@ impl Scales {
         for (column, input) in inputs.iter_mut().zip(&self.inputs) {
             column.iter_mut().for_each(|x| *x = input.scaled(*x));
         }
-        for columns in [outputs, &mut split.free, &mut split.standard_errors] {
+        for columns in [outputs, &mut split.dead_zone, &mut split.standard_errors] {
             for (column, unit) in columns.iter_mut().zip(&self.outputs) {
                 column.iter_mut().for_each(|y| *y = (f64::from(*y) / unit) as f32);
             }

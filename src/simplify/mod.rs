@@ -54,7 +54,7 @@ pub struct Simplifier {
 }
 
 /// Passes over a program, at most; hardly any needs more than three.
-const MOST_PASSES: usize = 12;
+const MAX_PASSES: usize = 12;
 
 impl Simplifier {
     /// Writes a simpler form of `source`'s effective code to `target`.
@@ -77,7 +77,7 @@ impl Simplifier {
     fn settle(&mut self, source: &Draft, target: &mut Draft) {
         self.pass(source, target);
         let mut previous = std::mem::take(&mut self.previous);
-        for _ in 1..MOST_PASSES {
+        for _ in 1..MAX_PASSES {
             if !self.changed {
                 break;
             }

@@ -25,11 +25,11 @@ pub enum Placement {
 /// So many inputs in other units may be multiplied with each other before one is brought to the given program's unit; those of
 /// a large exponent count twice, since the square of what is small among them is no normal `f32`. Apart from
 /// that the units themselves decide nothing, so that neither do they of the cost.
-const MOST_DEGREE: u32 = 2;
+const MAX_DEGREE: u32 = 2;
 const LARGE_EXPONENT: i32 = 31;
 
 /// A power of two that is an `f32`, beyond all that units are made of.
-const MOST_EXPONENT: i32 = 126;
+const MAX_EXPONENT: i32 = 126;
 
 /// The program over columns in other units: it reads the columns that `inputs` tells of, and its outputs are the
 /// given program's times two to the power of `outputs`. Where no offset is given and nothing leaves `f32`, each
@@ -251,7 +251,7 @@ impl Work<'_> {
                 let degree: u32 = factors.iter().map(|factor| factor.degree).sum();
                 let factor = factors[i];
                 let chosen = self.can_change(factor.arg) == can_change && factor.degree > 0;
-                if degree > MOST_DEGREE && chosen {
+                if degree > MAX_DEGREE && chosen {
                     let arg = self.multiplied(factor.arg, -factor.exponent);
                     factors[i] = Scaled { arg, exponent: 0, degree: 0 };
                 }
@@ -303,7 +303,7 @@ impl Work<'_> {
         let mut multiple = arg;
         let mut left = change;
         while left != 0 {
-            let step = left.clamp(-MOST_EXPONENT, MOST_EXPONENT);
+            let step = left.clamp(-MAX_EXPONENT, MAX_EXPONENT);
             let factor = self.new.constant(f64::from(step).exp2() as f32);
             multiple = self.push(Op::Mul, &[multiple, factor], false);
             left -= step;

@@ -41,7 +41,7 @@ pub(super) fn traced(program: &Program) -> Program {
 }
 
 /// Values of all instructions in low precision, and exactly.
-pub(super) struct Trace<'a> {
+pub(super) struct Evaluation<'a> {
     pub program: &'a Program,
     pub inputs: &'a [f32],
     pub found: &'a [f64],
@@ -53,7 +53,7 @@ pub(super) struct Trace<'a> {
 /// What an argument inherits of a result's error is to blame if it is this share of it.
 const INHERITED: f64 = 0.25;
 
-impl Trace<'_> {
+impl Evaluation<'_> {
     fn exact(&self, arg: Arg) -> f64 {
         match arg {
             Arg::Input(i) => self.inputs[usize::from(i)].into(),

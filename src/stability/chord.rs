@@ -1,6 +1,6 @@
 //! Functions of one argument as straight lines with an error, on an interval.
 
-use super::form::{Form, Terms};
+use super::form::{AffineForm, Terms};
 use crate::eval::{Arithmetic, Bounds, Double};
 use crate::num::Interval;
 use crate::op::Op;
@@ -16,7 +16,12 @@ struct Curve<'a> {
 }
 
 /// `f(x)` for x of the form within the bounds; nothing where no line is known that comes near.
-pub(super) fn image(op: Op, x: &Form, bounds: Interval, terms: &mut Terms) -> Option<Form> {
+pub(super) fn image(
+    op: Op,
+    x: &AffineForm,
+    bounds: Interval,
+    terms: &mut Terms,
+) -> Option<AffineForm> {
     let (low, high) = (f64::from(bounds.low()), f64::from(bounds.high()));
     match op {
         Op::Rcp if low > 0.0 || high < 0.0 => {
@@ -84,7 +89,7 @@ pub(super) fn image(op: Op, x: &Form, bounds: Interval, terms: &mut Terms) -> Op
 }
 
 /// `x²`.
-pub(super) fn square(x: &Form, bounds: Interval, terms: &mut Terms) -> Form {
+pub(super) fn square(x: &AffineForm, bounds: Interval, terms: &mut Terms) -> AffineForm {
     let (low, high) = (f64::from(bounds.low()), f64::from(bounds.high()));
     let middle = low / 2.0 + high / 2.0;
     let magnitude = low.abs().max(high.abs()).powi(2);
@@ -92,7 +97,7 @@ pub(super) fn square(x: &Form, bounds: Interval, terms: &mut Terms) -> Form {
 }
 
 /// `|x|`.
-pub(super) fn absolute(x: &Form, bounds: Interval, terms: &mut Terms) -> Form {
+pub(super) fn absolute(x: &AffineForm, bounds: Interval, terms: &mut Terms) -> AffineForm {
     let (low, high) = (f64::from(bounds.low()), f64::from(bounds.high()));
     if low >= 0.0 {
         return *x;
@@ -105,7 +110,7 @@ pub(super) fn absolute(x: &Form, bounds: Interval, terms: &mut Terms) -> Form {
 }
 
 /// The larger.
-pub(super) fn maximum(a: &Form, b: &Form, terms: &mut Terms) -> Form {
+pub(super) fn maximum(a: &AffineForm, b: &AffineForm, terms: &mut Terms) -> AffineForm {
     let difference = a.minus(b, terms).bounds();
     let (low, high) = (f64::from(difference.low()), f64::from(difference.high()));
     if low >= 0.0 {
@@ -121,14 +126,14 @@ pub(super) fn maximum(a: &Form, b: &Form, terms: &mut Terms) -> Form {
 }
 
 /// The smaller.
-pub(super) fn minimum(a: &Form, b: &Form, terms: &mut Terms) -> Form {
+pub(super) fn minimum(a: &AffineForm, b: &AffineForm, terms: &mut Terms) -> AffineForm {
     let [a, b] = [a, b].map(|form| form.negated(terms));
     maximum(&a, &b, terms).negated(terms)
 }
 
 impl Curve<'_> {
     /// The line of least error: parallel to the chord, halfway to the tangent.
-    fn image(&self, x: &Form, low: f64, high: f64, terms: &mut Terms) -> Option<Form> {
+    fn image(&self, x: &AffineForm, low: f64, high: f64, terms: &mut Terms) -> Option<AffineForm> {
         let (first, last) = ((self.value)(low), (self.value)(high));
         let chord = match high - low {
             width if width > 1e-30 => (last - first) / width,
@@ -183,11 +188,11 @@ fn derivative(op: Op, x: Interval) -> Option<Interval> {
 fn by_derivative(
     op: Op,
     derivative: Interval,
-    x: &Form,
+    x: &AffineForm,
     bounds: Interval,
     terms: &mut Terms,
-) -> Option<Form> {
-    let line = Form::around(derivative).filter(|_| !derivative.may_be_nan())?;
+) -> Option<AffineForm> {
+    let line = AffineForm::around(derivative).filter(|_| !derivative.may_be_nan())?;
     let (low, high) = (f64::from(bounds.low()), f64::from(bounds.high()));
     let middle = low / 2.0 + high / 2.0;
     let value = Double.apply(op, [middle; 4]);

@@ -1,7 +1,7 @@
 //! Programs on boxes: every value that each instruction can give there.
 
 use super::chord;
-use super::form::{Form, Terms};
+use super::form::{AffineForm, Terms};
 use super::rounding::{HUGE, Rounding, flushed};
 use crate::eval::{Arithmetic, Bounds};
 use crate::num::Interval;
@@ -13,7 +13,7 @@ use crate::program::{Arg, Program};
 pub(super) struct Enclosed {
     pub bounds: Interval,
     /// Describes the value wherever that is a number; none where it may be infinite.
-    form: Option<Form>,
+    form: Option<AffineForm>,
 }
 
 /// Evaluates programs on boxes: interval arithmetic rounded outward, narrowed by affine forms, whose
@@ -42,7 +42,7 @@ impl Enclosure {
         self.terms.clear();
         for &bounds in domain {
             let bounds = self.stored(bounds);
-            let form = Form::input(bounds, &mut self.terms);
+            let form = AffineForm::input(bounds, &mut self.terms);
             self.inputs.push(Enclosed { bounds, form });
         }
         for instr in &program.instrs {
@@ -81,7 +81,7 @@ impl Enclosure {
             Arg::Result(i) => self.results[usize::from(i)],
             Arg::Const(i) => {
                 let bounds = self.stored(Bounds.constant(program.consts[usize::from(i)]));
-                Enclosed { bounds, form: Form::around(bounds) }
+                Enclosed { bounds, form: AffineForm::around(bounds) }
             }
         }
     }
@@ -93,11 +93,11 @@ impl Enclosure {
 
 impl Enclosed {
     /// What both bounds and form allow.
-    fn new(rounding: Rounding, bounds: Interval, form: Option<Form>) -> Enclosed {
-        let form = form.filter(Form::is_finite);
+    fn new(rounding: Rounding, bounds: Interval, form: Option<AffineForm>) -> Enclosed {
+        let form = form.filter(AffineForm::is_finite);
         let bounds = form.map_or(bounds, |form| bounds.narrowed(form.bounds()));
         // Where the form knows less, what it says of others is worth little.
-        let plain = Form::around(bounds);
+        let plain = AffineForm::around(bounds);
         let form = match (form, plain) {
             (Some(form), Some(plain)) if plain.radius() > form.radius() / 2.0 => Some(form),
             (Some(form), Some(plain)) => Some(plain.in_place_of(&form)),
@@ -194,7 +194,7 @@ impl Step<'_> {
             return fused;
         }
         let one = Interval::new(1.0, 1.0);
-        let one = Enclosed { bounds: one, form: Form::around(one) };
+        let one = Enclosed { bounds: one, form: AffineForm::around(one) };
         let rest = self.of(Op::Sub, &[one, t]);
         let (first, second) = (self.of(Op::Mul, &[a, rest]), self.of(Op::Mul, &[b, t]));
         let sum = self.of(Op::Add, &[first, second]);
@@ -202,7 +202,12 @@ impl Step<'_> {
     }
 
     /// The operation without its rounding, as an affine form.
-    fn form(&mut self, op: Op, arguments: &[Enclosed; MAX_ARITY], square: bool) -> Option<Form> {
+    fn form(
+        &mut self,
+        op: Op,
+        arguments: &[Enclosed; MAX_ARITY],
+        square: bool,
+    ) -> Option<AffineForm> {
         let x = arguments[0].bounds;
         let [a, b, c, _] = arguments.each_ref().map(|argument| argument.form.as_ref());
         let terms = &mut *self.terms;
@@ -229,7 +234,7 @@ impl Step<'_> {
             Op::Max => Some(chord::maximum(a?, b?, terms)),
             Op::Min => Some(chord::minimum(a?, b?, terms)),
             Op::Saturate => {
-                let [zero, one] = [0.0, 1.0].map(|x| Form::around(Interval::new(x, x)));
+                let [zero, one] = [0.0, 1.0].map(|x| AffineForm::around(Interval::new(x, x)));
                 let positive = chord::maximum(a?, zero.as_ref()?, terms);
                 Some(chord::minimum(&positive, one.as_ref()?, terms))
             }

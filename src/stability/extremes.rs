@@ -8,7 +8,7 @@ use serde::Serialize;
 /// Where inputs go although nobody meant them to.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "snake_case")]
-pub enum Place {
+pub enum Extreme {
     /// The corners, edges and faces of the domain.
     Edge,
     /// One ulp, or 1e-7 of the width, outside: as a normalised vector's cosine may be.
@@ -21,8 +21,8 @@ pub enum Place {
     Denormal,
 }
 
-const PLACES: [Place; 5] =
-    [Place::Edge, Place::JustOutside, Place::Outside, Place::Zero, Place::Denormal];
+const EXTREMES: [Extreme; 5] =
+    [Extreme::Edge, Extreme::JustOutside, Extreme::Outside, Extreme::Zero, Extreme::Denormal];
 
 /// A value, and where.
 #[derive(Clone, Debug, PartialEq)]
@@ -34,7 +34,7 @@ pub struct At {
 /// What an output gives at a kind of place.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Extent {
-    pub place: Place,
+    pub place: Extreme,
     pub output: usize,
     /// The least and the largest number; none where there is none.
     pub least: Option<At>,
@@ -49,7 +49,7 @@ pub struct Extent {
 /// If `domain` has not one interval for each input.
 pub fn extremes(program: &Program, domain: &[Interval]) -> Vec<Extent> {
     let mut extents = Vec::new();
-    for place in PLACES {
+    for place in EXTREMES {
         let points = points_at(place, domain);
         if points.is_empty() {
             continue;
@@ -72,7 +72,7 @@ pub fn extremes(program: &Program, domain: &[Interval]) -> Vec<Extent> {
 }
 
 /// Points with a special value on one side, and on all.
-fn points_at(place: Place, domain: &[Interval]) -> Vec<Vec<f32>> {
+fn points_at(place: Extreme, domain: &[Interval]) -> Vec<Vec<f32>> {
     let special: Vec<Vec<f32>> = domain.iter().map(|&side| special(place, side)).collect();
     let ordinary: Vec<Vec<f32>> = domain
         .iter()
@@ -93,7 +93,7 @@ fn points_at(place: Place, domain: &[Interval]) -> Vec<Vec<f32>> {
     points
 }
 
-fn special(place: Place, side: Interval) -> Vec<f32> {
+fn special(place: Extreme, side: Interval) -> Vec<f32> {
     let (low, high) = (side.low(), side.high());
     let width = high - low;
     if width == 0.0 {
@@ -103,12 +103,12 @@ fn special(place: Place, side: Interval) -> Vec<f32> {
         values.iter().copied().filter(|&x| side.contains(f64::from(x))).collect()
     };
     match place {
-        Place::Edge => vec![low, high],
-        Place::JustOutside => {
+        Extreme::Edge => vec![low, high],
+        Extreme::JustOutside => {
             vec![low.next_down(), low - 1e-7 * width, high.next_up(), high + 1e-7 * width]
         }
-        Place::Outside => vec![low - 0.05 * width, high + 0.05 * width],
-        Place::Zero => within(&[0.0, -0.0]),
-        Place::Denormal => within(&[1e-40, 1e-45, -1e-40]),
+        Extreme::Outside => vec![low - 0.05 * width, high + 0.05 * width],
+        Extreme::Zero => within(&[0.0, -0.0]),
+        Extreme::Denormal => within(&[1e-40, 1e-45, -1e-40]),
     }
 }

@@ -30,7 +30,7 @@ pub(super) struct Terms {
 /// `fresh` is that of the instruction at hand; `rest` is rounding, which two readers of one result need
 /// not share, since a compiler may compute it twice.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Form {
+pub(super) struct AffineForm {
     center: f64,
     fresh: f64,
     rest: f64,
@@ -47,14 +47,14 @@ impl Terms {
         (self.inputs, self.used) = (0, 0);
     }
 
-    fn of(&self, form: &Form) -> &[f64] {
+    fn of(&self, form: &AffineForm) -> &[f64] {
         &self.values[form.range()]
     }
 
     /// The form with the terms from `start` on, which were put last.
-    fn finished(&self, start: usize, form: Form) -> Form {
+    fn finished(&self, start: usize, form: AffineForm) -> AffineForm {
         let terms = &self.values[start..];
-        Form { start, count: terms.len(), shared: magnitudes(terms), ..form }
+        AffineForm { start, count: terms.len(), shared: magnitudes(terms), ..form }
     }
 }
 
@@ -70,11 +70,11 @@ fn magnitudes(terms: &[f64]) -> f64 {
     sums.iter().sum()
 }
 
-impl Form {
+impl AffineForm {
     /// Any value of an interval; nothing where that is not bounded.
-    pub fn around(bounds: Interval) -> Option<Form> {
+    pub fn around(bounds: Interval) -> Option<AffineForm> {
         let (low, high) = (f64::from(bounds.low()), f64::from(bounds.high()));
-        (low.is_finite() && high.is_finite() && low <= high).then(|| Form {
+        (low.is_finite() && high.is_finite() && low <= high).then(|| AffineForm {
             center: low / 2.0 + high / 2.0,
             fresh: high / 2.0 - low / 2.0,
             rest: 0.0,
@@ -85,8 +85,8 @@ impl Form {
     }
 
     /// An input; those of a box come before its instructions.
-    pub fn input(bounds: Interval, terms: &mut Terms) -> Option<Form> {
-        let form = Form::around(bounds)?;
+    pub fn input(bounds: Interval, terms: &mut Terms) -> Option<AffineForm> {
+        let form = AffineForm::around(bounds)?;
         if form.fresh == 0.0 || terms.inputs >= INPUTS {
             return Some(form.unshared());
         }
@@ -96,7 +96,7 @@ impl Form {
 
     /// As the result of an instruction, whose curvature later ones can refer to.
     #[must_use]
-    pub fn of_instruction(self, terms: &mut Terms) -> Form {
+    pub fn of_instruction(self, terms: &mut Terms) -> AffineForm {
         match self.fresh {
             0.0 => self,
             _ if terms.used < TERMS => self.settled(terms),
@@ -104,18 +104,18 @@ impl Form {
         }
     }
 
-    fn settled(self, terms: &mut Terms) -> Form {
+    fn settled(self, terms: &mut Terms) -> AffineForm {
         let start = terms.values.len();
         terms.values.extend_from_within(self.range());
         terms.values.resize(start + terms.used, 0.0);
         terms.values.push(self.fresh);
         terms.used += 1;
-        terms.finished(start, Form { fresh: 0.0, ..self }).padded(self.center.abs())
+        terms.finished(start, AffineForm { fresh: 0.0, ..self }).padded(self.center.abs())
     }
 
     /// All that is fresh as what no two readers share.
     #[must_use]
-    pub fn unshared(mut self) -> Form {
+    pub fn unshared(mut self) -> AffineForm {
         self.rest += self.fresh;
         self.fresh = 0.0;
         self
@@ -123,8 +123,8 @@ impl Form {
 
     /// In place of another form of the same values: what its readers need not share, these neither.
     #[must_use]
-    pub fn in_place_of(self, other: &Form) -> Form {
-        Form { fresh: self.fresh + other.rest, rest: other.rest, ..self }
+    pub fn in_place_of(self, other: &AffineForm) -> AffineForm {
+        AffineForm { fresh: self.fresh + other.rest, rest: other.rest, ..self }
     }
 
     fn range(&self) -> Range<usize> {
@@ -137,7 +137,7 @@ impl Form {
     }
 
     /// What the place of an input changes, given the input's own form.
-    pub fn slope(&self, input: &Form, terms: &Terms) -> f64 {
+    pub fn slope(&self, input: &AffineForm, terms: &Terms) -> f64 {
         let own = input.count.checked_sub(1);
         own.and_then(|own| terms.of(self).get(own)).map_or(0.0, |term| term.abs())
     }
@@ -157,42 +157,42 @@ impl Form {
         enclose(self.center - radius, self.center + radius)
     }
 
-    fn padded(self, magnitude: f64) -> Form {
+    fn padded(self, magnitude: f64) -> AffineForm {
         self.widened(magnitude * LOSS)
     }
 
     #[must_use]
-    pub fn widened(mut self, error: f64) -> Form {
+    pub fn widened(mut self, error: f64) -> AffineForm {
         self.rest += error;
         self
     }
 
     #[must_use]
-    pub fn negated(&self, terms: &mut Terms) -> Form {
+    pub fn negated(&self, terms: &mut Terms) -> AffineForm {
         let start = terms.values.len();
         terms.values.extend_from_within(self.range());
         terms.values[start..].iter_mut().for_each(|term| *term = -*term);
-        Form { start, center: -self.center, ..*self }
+        AffineForm { start, center: -self.center, ..*self }
     }
 
     #[must_use]
-    pub fn plus(&self, other: &Form, terms: &mut Terms) -> Form {
+    pub fn plus(&self, other: &AffineForm, terms: &mut Terms) -> AffineForm {
         self.with(other, 1.0, terms)
     }
 
     #[must_use]
-    pub fn minus(&self, other: &Form, terms: &mut Terms) -> Form {
+    pub fn minus(&self, other: &AffineForm, terms: &mut Terms) -> AffineForm {
         self.with(other, -1.0, terms)
     }
 
     /// The other added, times a sign.
-    fn with(&self, other: &Form, sign: f64, terms: &mut Terms) -> Form {
+    fn with(&self, other: &AffineForm, sign: f64, terms: &mut Terms) -> AffineForm {
         let start = terms.values.len();
         terms.values.extend_from_within(self.range());
         terms.values.resize(start + self.count.max(other.count), 0.0);
         let (before, sum) = terms.values.split_at_mut(start);
         sum.iter_mut().zip(&before[other.range()]).for_each(|(to, from)| *to += sign * from);
-        let form = Form {
+        let form = AffineForm {
             center: self.center + sign * other.center,
             fresh: self.fresh + other.fresh,
             rest: self.rest + other.rest,
@@ -210,13 +210,13 @@ impl Form {
         [low, high]: [f64; 2],
         magnitude: f64,
         terms: &mut Terms,
-    ) -> Form {
+    ) -> AffineForm {
         let start = terms.values.len();
         if factor != 0.0 {
             terms.values.extend_from_within(self.range());
             terms.values[start..].iter_mut().for_each(|term| *term *= factor);
         }
-        let form = Form {
+        let form = AffineForm {
             center: factor * self.center + (low / 2.0 + high / 2.0),
             fresh: factor.abs() * self.fresh + (high / 2.0 - low / 2.0),
             rest: factor.abs() * self.rest,
@@ -226,7 +226,7 @@ impl Form {
     }
 
     #[must_use]
-    pub fn times(&self, other: &Form, terms: &mut Terms) -> Form {
+    pub fn times(&self, other: &AffineForm, terms: &mut Terms) -> AffineForm {
         let (a, b) = (self, other);
         let inputs = terms.inputs;
         let start = terms.values.len();
@@ -236,12 +236,13 @@ impl Form {
         product.iter_mut().for_each(|term| *term *= b.center);
         let b_terms = &before[b.range()];
         product.iter_mut().zip(b_terms).for_each(|(to, term)| *to += a.center * term);
-        let of_inputs = |form: &Form| &before[form.start..form.start + form.count.min(inputs)];
+        let of_inputs =
+            |form: &AffineForm| &before[form.start..form.start + form.count.min(inputs)];
         let (center, fresh) = quadratic(of_inputs(a), of_inputs(b));
         // Of the product of both sums, that of the inputs' terms is taken apart.
         let others = a.shared * b.shared - magnitudes(of_inputs(a)) * magnitudes(of_inputs(b));
         let (a_sum, b_sum) = (a.center.abs() + a.shared, b.center.abs() + b.shared);
-        let form = Form {
+        let form = AffineForm {
             center: a.center * b.center + center,
             fresh: others.max(0.0) + fresh + a.fresh * (b_sum + b.fresh) + b.fresh * a_sum,
             rest: a.rest * b.magnitude() + b.rest * (a_sum + a.fresh),
@@ -252,7 +253,7 @@ impl Form {
 
     /// Values of either.
     #[must_use]
-    pub fn hull(&self, other: &Form, terms: &mut Terms) -> Form {
+    pub fn hull(&self, other: &AffineForm, terms: &mut Terms) -> AffineForm {
         let apart = self.minus(other, terms).magnitude() / 2.0;
         self.plus(other, terms).mapped(0.5, [-apart, apart], apart, terms)
     }

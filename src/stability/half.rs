@@ -10,7 +10,7 @@ use half::f16;
 use serde::Serialize;
 
 /// The least half with all its digits, 2⁻¹⁴.
-pub(super) const LEAST_NORMAL: f64 = 6.103_515_625e-5;
+pub(super) const MIN_NORMAL: f64 = 6.103_515_625e-5;
 
 /// Denormal halves as they are, and flushed to zero: a GPU may do either.
 pub(super) const ARITHMETICS: [Half; 2] =
@@ -109,7 +109,7 @@ fn special(side: Interval) -> Vec<f32> {
     let above = Interval::new(side.low().max(side.high() / 2.0).min(side.high()), side.high());
     let last: Vec<f32> = halves(above).collect();
     special.extend(last.iter().rev().take(3));
-    for size in [0.0, 5.960_464_5e-8, 6.097_555e-5, LEAST_NORMAL as f32] {
+    for size in [0.0, 5.960_464_5e-8, 6.097_555e-5, MIN_NORMAL as f32] {
         special.extend([size, -size]);
     }
     special

@@ -1,6 +1,6 @@
 //! What single and half precision lose.
 
-use super::blame::{Blame, Cause, Trace, relative, traced};
+use super::blame::{Blame, Cause, Evaluation, relative, traced};
 use super::variants::Variant;
 use super::{half, points};
 use crate::eval::{Arithmetic, Double, Half};
@@ -10,7 +10,7 @@ use crate::program::{Arg, Program};
 
 /// A worst case.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Loss {
+pub struct PrecisionLoss {
     pub output: usize,
     pub input: Vec<f32>,
     /// In low precision, and in `f64`.
@@ -19,7 +19,7 @@ pub struct Loss {
     pub blame: Blame,
 }
 
-impl Loss {
+impl PrecisionLoss {
     fn is_of_numbers(&self) -> bool {
         self.found.is_finite() && self.exact.is_finite()
     }
@@ -49,9 +49,9 @@ impl Loss {
 /// numbers; and where low precision gives none, if anywhere.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Precision {
-    pub absolute: Option<Loss>,
-    pub relative: Option<Loss>,
-    pub not_finite: Option<Loss>,
+    pub absolute: Option<PrecisionLoss>,
+    pub relative: Option<PrecisionLoss>,
+    pub not_finite: Option<PrecisionLoss>,
 }
 
 /// Points that are looked at.
@@ -85,7 +85,7 @@ impl Precision {
     /// If `domain` has not one interval for each input.
     pub fn in_halves(program: &Program, domain: &[Interval], arithmetics: &[Half]) -> Precision {
         let points = half::points(domain, POINTS).points;
-        worst(program, &points, half::LEAST_NORMAL, |program, point| {
+        worst(program, &points, half::MIN_NORMAL, |program, point| {
             let of = |&arithmetic| half::outputs(program, &[], arithmetic, point);
             arithmetics.iter().map(of).collect()
         })
@@ -108,7 +108,7 @@ fn worst(
             let exact = Double.evaluate(&traced, &inputs);
             for found in evaluate(&traced, point) {
                 let (program, exact) = (&program, &exact);
-                let trace = Trace { program, inputs: point, found: &found, exact, least };
+                let trace = Evaluation { program, inputs: point, found: &found, exact, least };
                 worst.note(&trace, &origin);
             }
         }
@@ -118,14 +118,14 @@ fn worst(
 
 impl Precision {
     /// Notes what is worse at a point than what is known; `origin` are the instructions as written.
-    fn note(&mut self, trace: &Trace, origin: &[usize]) {
+    fn note(&mut self, trace: &Evaluation, origin: &[usize]) {
         let count = trace.program.instrs.len();
         for (output, &arg) in trace.program.outputs.iter().enumerate() {
             let (found, exact) = (trace.found[count + output], trace.exact[count + output]);
             let vanished = vanished(trace, found, exact);
             let plain = Blame { instruction: None, cause: Cause::Rounding, condition: 1.0 };
             let blame = vanished.unwrap_or(plain);
-            let mut loss = Loss { output, input: Vec::new(), found, exact, blame };
+            let mut loss = PrecisionLoss { output, input: Vec::new(), found, exact, blame };
             if !self.is_worsened_by(&loss) {
                 continue;
             }
@@ -136,25 +136,26 @@ impl Precision {
         }
     }
 
-    fn is_worsened_by(&self, loss: &Loss) -> bool {
-        let exceeds = |known: &Option<Loss>, size: fn(&Loss) -> f64| {
+    fn is_worsened_by(&self, loss: &PrecisionLoss) -> bool {
+        let exceeds = |known: &Option<PrecisionLoss>, size: fn(&PrecisionLoss) -> f64| {
             known.as_ref().is_none_or(|known| size(loss) > size(known))
         };
         loss.is_of_numbers()
-            && (exceeds(&self.absolute, Loss::absolute) || exceeds(&self.relative, Loss::relative))
+            && (exceeds(&self.absolute, PrecisionLoss::absolute)
+                || exceeds(&self.relative, PrecisionLoss::relative))
             || !loss.found.is_finite() && self.not_finite.is_none()
     }
 
     /// Notes a loss where it is worse than what is known.
-    fn take(&mut self, loss: &Loss) {
-        let offer = |to: &mut Option<Loss>, size: fn(&Loss) -> f64| {
+    fn take(&mut self, loss: &PrecisionLoss) {
+        let offer = |to: &mut Option<PrecisionLoss>, size: fn(&PrecisionLoss) -> f64| {
             if to.as_ref().is_none_or(|known| size(loss) > size(known)) {
                 *to = Some(loss.clone());
             }
         };
         if loss.is_of_numbers() {
-            offer(&mut self.absolute, Loss::absolute);
-            offer(&mut self.relative, Loss::relative);
+            offer(&mut self.absolute, PrecisionLoss::absolute);
+            offer(&mut self.relative, PrecisionLoss::relative);
         }
         if !loss.found.is_finite() {
             offer(&mut self.not_finite, |_| 1.0);
@@ -164,7 +165,7 @@ impl Precision {
 
 /// The exponential that is zero even in `f64`, although no exponential is, where that makes the
 /// output zero.
-fn vanished(trace: &Trace, found: f64, exact: f64) -> Option<Blame> {
+fn vanished(trace: &Evaluation, found: f64, exact: f64) -> Option<Blame> {
     if found != 0.0 || exact != 0.0 {
         return None;
     }

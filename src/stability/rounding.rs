@@ -31,7 +31,7 @@ const ULP: f64 = f32::EPSILON as f64;
 const LEAST: f64 = 1.5e-45;
 
 /// Below it results may be flushed to zero.
-const LEAST_NORMAL: f32 = f32::MIN_POSITIVE;
+const MIN_NORMAL: f32 = f32::MIN_POSITIVE;
 
 /// Just below 2¹²⁶: the reciprocal of a larger number may be flushed to zero.
 pub(super) const HUGE: f32 = 8.5e37;
@@ -64,7 +64,7 @@ impl Rounding {
         let absolute = error.absolute + tolerance.absolute_between(a.low(), a.high());
         let flushed = match self {
             Rounding::Exact => 0.0,
-            Rounding::Gpu => f64::from(LEAST_NORMAL),
+            Rounding::Gpu => f64::from(MIN_NORMAL),
         };
         Error { absolute: absolute + flushed, ..error }
     }
@@ -124,6 +124,6 @@ fn spread(bounds: Interval, error: Error) -> Interval {
 
 /// With zero, if it holds denormals.
 pub(super) fn flushed(bounds: Interval) -> Interval {
-    let denormal = bounds.low() < LEAST_NORMAL && bounds.high() > -LEAST_NORMAL;
+    let denormal = bounds.low() < MIN_NORMAL && bounds.high() > -MIN_NORMAL;
     if denormal && !bounds.is_empty() { bounds.hull(Interval::new(0.0, 0.0)) } else { bounds }
 }

@@ -3,8 +3,8 @@
 use super::verdict::{number_text, share_text, status_text};
 use crate::program::{Arg, Names, Program, effective, print_expression};
 use crate::stability::{
-    At, Blame, Break, Cause, ClaimRecord, Examination, Finding, JUMP, Liberty, Loss, Place, Status,
-    Trend, Tried,
+    At, Blame, Break, Cause, ClaimRecord, Examination, Extreme, Finding, JUMP, Liberty,
+    PrecisionLoss, Status, Trend, Tried,
 };
 use serde_json::{Value, json};
 use std::fmt::Write;
@@ -71,11 +71,11 @@ impl Page<'_> {
         let mut text = String::from("\nedges\n");
         for extent in &self.examination.extremes {
             let place = match extent.place {
-                Place::Edge => "on edges and corners",
-                Place::JustOutside => "1 ulp or 1e-7 outside",
-                Place::Outside => "5 % outside",
-                Place::Zero => "at +0 and -0",
-                Place::Denormal => "at denormals",
+                Extreme::Edge => "on edges and corners",
+                Extreme::JustOutside => "1 ulp or 1e-7 outside",
+                Extreme::Outside => "5 % outside",
+                Extreme::Zero => "at +0 and -0",
+                Extreme::Denormal => "at denormals",
             };
             let number = |at: &Option<At>| at.as_ref().map(|at| number_text(at.value.into()));
             let range = match (number(&extent.least), number(&extent.largest)) {
@@ -133,7 +133,7 @@ impl Page<'_> {
         text
     }
 
-    fn loss(&self, what: &str, loss: &Loss) -> String {
+    fn loss(&self, what: &str, loss: &PrecisionLoss) -> String {
         let (absolute, relative) = (loss.absolute(), loss.relative());
         let size = match () {
             () if absolute == 0.0 && relative == 0.0 => return format!("  {what:<13} none\n"),
@@ -276,7 +276,7 @@ pub fn json(examination: &Examination, names: &Names) -> Value {
     let input = |input: &[f32]| -> Value {
         names.inputs.iter().cloned().zip(input.iter().map(|&x| Value::from(x))).collect()
     };
-    let loss = |loss: &Option<Loss>| {
+    let loss = |loss: &Option<PrecisionLoss>| {
         let Some(loss) = loss else { return Value::Null };
         json!({
             "absolute": loss.absolute(), "relative": loss.relative(), "ulps": loss.ulps(),

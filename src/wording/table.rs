@@ -1,15 +1,15 @@
 //! A front as a table of text, published formulas on the same axes.
 
 use crate::fit::Measure;
-use crate::search::{Front, FrontMember, Published};
+use crate::search::{Front, FrontMember, ScoredIncumbent};
 use std::fmt::Write;
 
 /// The front by rising cost, each member's formula under its numbers, incumbents where their cost
 /// puts them. Errors are over all outputs; those by output follow where there are several.
-pub fn front_table(front: &Front, incumbents: &[Published], outputs: &[String]) -> String {
+pub fn front_table(front: &Front, incumbents: &[ScoredIncumbent], outputs: &[String]) -> String {
     let judged = front.members.iter().any(|member| member.verdict.is_judged());
     let mut text = heading(outputs, front.measure, judged);
-    let mut waiting: Vec<&Published> = incumbents.iter().collect();
+    let mut waiting: Vec<&ScoredIncumbent> = incumbents.iter().collect();
     waiting.sort_by(|a, b| a.member.cost.total_cmp(&b.member.cost));
     let mut waiting = waiting.into_iter().peekable();
     for (i, member) in front.members.iter().enumerate() {
@@ -98,7 +98,7 @@ fn numbers(member: &FrontMember, measure: Measure) -> String {
     text
 }
 
-fn incumbent_row(known: &Published, front: &Front) -> String {
+fn incumbent_row(known: &ScoredIncumbent, front: &Front) -> String {
     let standing = match dominating(known, front) {
         Some((i, member)) => format!(
             "dominated by {} ({} cycles, {} {})",
@@ -140,7 +140,10 @@ pub fn axis_title(measure: Measure) -> &'static str {
 }
 
 /// The cheapest member that dominates an incumbent, and its place.
-pub fn dominating<'a>(known: &Published, front: &'a Front) -> Option<(usize, &'a FrontMember)> {
+pub fn dominating<'a>(
+    known: &ScoredIncumbent,
+    front: &'a Front,
+) -> Option<(usize, &'a FrontMember)> {
     front
         .members
         .iter()

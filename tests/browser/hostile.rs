@@ -5,7 +5,7 @@ use lgp::dataset::{Column, Split};
 use lgp::emit::{self, Language, Snippet};
 use lgp::program::{Names, Program, parse};
 use lgp::report::page::{
-    self, Axis, Code, ComparedRun, Comparison, Formula, Group, Page, PageFront, Table,
+    self, Code, ComparedRun, Comparison, CostAxis, Formula, Group, Page, PageFront, SampleTable,
 };
 
 /// Each would set `window.ran` where it is taken for what it is not.
@@ -52,12 +52,12 @@ fn page(text: &str) -> Page {
         command: text.into(),
         inputs: vec![column(text), column("b")],
         outputs: vec![column("y")],
-        profiles: vec![Axis { name: text.into(), description: text.into(), unit: "cycles" }],
+        profiles: vec![CostAxis { name: text.into(), description: text.into(), unit: "cycles" }],
         profile: 0,
         fronts: vec![front],
         published: vec![formula(Some(text))],
         lookup_tables: Vec::new(),
-        samples: Some(Table::of(&split, 2)),
+        samples: Some(SampleTable::of(&split, 2)),
         trace: None,
         spheres: None,
         languages: Language::ALL.iter().map(|language| language.name()).collect(),

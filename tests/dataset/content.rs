@@ -1,7 +1,7 @@
 //! What a dataset must be, and choosing some of its columns.
 
 use crate::{names, sample, strings};
-use lgp::dataset::{Dataset, Error, MOST_COLUMNS, NameFault, Split};
+use lgp::dataset::{Dataset, Error, MAX_COLUMNS, NameFault, Split};
 
 #[test]
 fn weights_default_to_one() {
@@ -53,8 +53,8 @@ fn validate_names_each_defect() {
         ),
         (|d| d.inputs[0].name = "x".repeat(1000), |e| matches!(e, Error::ColumnName { .. })),
         (
-            |d| d.inputs = (0..MOST_COLUMNS).map(|i| crate::column(&format!("x{i}"))).collect(),
-            |e| matches!(e, Error::TooManyColumns { columns, .. } if *columns == MOST_COLUMNS + 2),
+            |d| d.inputs = (0..MAX_COLUMNS).map(|i| crate::column(&format!("x{i}"))).collect(),
+            |e| matches!(e, Error::TooManyColumns { columns, .. } if *columns == MAX_COLUMNS + 2),
         ),
         (
             |d| d.validation.columns.truncate(3),

@@ -4,7 +4,7 @@ use lgp::eval::Half;
 use lgp::num::Interval;
 use lgp::program::{Names, Program, parse};
 use lgp::stability::{
-    Bound, Cause, Limits, Loss, Precision, Property, Rounding, Status, half_error,
+    Bound, Cause, Limits, Precision, PrecisionLoss, Property, Rounding, Status, half_error,
     must_stay_single, prove,
 };
 
@@ -117,7 +117,7 @@ fn wrong(value: Option<f64>, error: Option<f64>, reference: Option<f64>, limit: 
     !value.is_finite() || error.is_some_and(|error| error.is_nan() || error.abs() > limit)
 }
 
-fn is_named(loss: &Loss) -> bool {
+fn is_named(loss: &PrecisionLoss) -> bool {
     loss.blame.instruction.is_some() && loss.blame.cause != Cause::Rounding
 }
 

@@ -107,11 +107,11 @@ impl Reader<'_> {
         let mut args = [None; MAX_ARITY];
         for (place, value) in call.places.iter().zip(values) {
             match (place, value) {
-                (Place::Argument(i), Value::Float(value)) => args[*i] = Some(value.arg),
-                (Place::Less(i, j), Value::Less(a, b)) => {
+                (CallPart::Argument(i), Value::Float(value)) => args[*i] = Some(value.arg),
+                (CallPart::Less(i, j), Value::Less(a, b)) => {
                     (args[*i], args[*j]) = (Some(*a), Some(*b));
                 }
-                (Place::Literal(literal), Value::Float(value))
+                (CallPart::Literal(literal), Value::Float(value))
                     if self.is_constant(value, *literal) => {}
                 _ => return None,
             }
@@ -132,11 +132,11 @@ fn floats(values: &[Value]) -> Vec<Float> {
 /// An operation that is written as a function.
 struct Call {
     name: &'static str,
-    places: Vec<Place>,
+    places: Vec<CallPart>,
 }
 
 /// What stands between two commas of a call.
-enum Place {
+enum CallPart {
     Argument(usize),
     Less(usize, usize),
     Literal(f32),
@@ -155,15 +155,15 @@ fn call_of(syntax: &Syntax, op: Op) -> Option<Call> {
     Some(Call { name, places: places.split(", ").map(place).collect::<Option<_>>()? })
 }
 
-fn place(text: &str) -> Option<Place> {
+fn place(text: &str) -> Option<CallPart> {
     let argument = |text: &str| match syntax::place(text) {
         Some((place, length)) if length == text.len() => Some(place.argument),
         _ => None,
     };
     match text.split_once(" < ") {
-        Some((a, b)) => Some(Place::Less(argument(a)?, argument(b)?)),
-        None => {
-            argument(text).map(Place::Argument).or_else(|| Some(Place::Literal(text.parse().ok()?)))
-        }
+        Some((a, b)) => Some(CallPart::Less(argument(a)?, argument(b)?)),
+        None => argument(text)
+            .map(CallPart::Argument)
+            .or_else(|| Some(CallPart::Literal(text.parse().ok()?))),
     }
 }

@@ -22,7 +22,7 @@ pub struct Claim {
 pub const ALWAYS_ASKED: [&str; 2] = ["finite", "range"];
 
 const LONGEST: usize = 1000;
-const MOST_VARIABLES: usize = 4;
+const MAX_VARIABLES: usize = 4;
 const SHAPE: &str = "a claim is `name: expression <= expression`, as in `energy: f0*scale + bias <= 1 for f0 in 0..1`";
 
 impl Claim {
@@ -147,8 +147,8 @@ fn variables(text: &str, end: usize, names: &Names) -> Result<Vec<(String, [f32;
         if columns.chain(variables.iter().map(|(known, _)| known)).any(|known| *known == name) {
             return wrong(format!("`{name}` is there already; name the variable otherwise"));
         }
-        if variables.len() == MOST_VARIABLES {
-            return wrong(format!("more than {MOST_VARIABLES} variables"));
+        if variables.len() == MAX_VARIABLES {
+            return wrong(format!("more than {MAX_VARIABLES} variables"));
         }
         variables.push((name, range));
         at += part.len() + 1;

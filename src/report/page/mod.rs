@@ -12,7 +12,7 @@ mod spheres;
 
 pub use compare::{ComparedRun, Comparison, Group, comparison};
 pub use lookup::{LookupTable, lookup_tables};
-pub use samples::Table;
+pub use samples::SampleTable;
 pub use spheres::PageSpheres;
 
 use policy::own;
@@ -35,7 +35,7 @@ pub struct Page {
     pub command: String,
     pub inputs: Vec<Column>,
     pub outputs: Vec<Column>,
-    pub profiles: Vec<Axis>,
+    pub profiles: Vec<CostAxis>,
     /// The place of the run's own profile in `profiles`.
     pub profile: usize,
     pub fronts: Vec<PageFront>,
@@ -43,7 +43,7 @@ pub struct Page {
     pub published: Vec<Formula>,
     pub lookup_tables: Vec<LookupTable>,
     /// The search split; none if the dataset is no longer there.
-    pub samples: Option<Table>,
+    pub samples: Option<SampleTable>,
     pub trace: Option<Trace>,
     pub spheres: Option<PageSpheres>,
     pub languages: Vec<&'static str>,
@@ -51,7 +51,7 @@ pub struct Page {
 
 /// What a formula may cost, on an axis of the plot: cycles on a GPU, or nanoseconds measured.
 #[derive(Clone, Debug, Serialize)]
-pub struct Axis {
+pub struct CostAxis {
     pub name: String,
     pub description: String,
     pub unit: &'static str,

@@ -4,11 +4,11 @@ use crate::dataset::Split;
 use serde::Serialize;
 
 /// More rows than these are thinned out.
-const MOST_ROWS: usize = 16384;
+const MAX_ROWS: usize = 16384;
 
 /// Samples of a split; of a full grid only the places along its axes.
 #[derive(Clone, Debug, PartialEq, Serialize)]
-pub struct Table {
+pub struct SampleTable {
     /// Points along each input, the first varying slowest; empty where the rows are no grid.
     pub grid: Vec<usize>,
     /// The places along each axis of the grid, or each row's.
@@ -18,25 +18,25 @@ pub struct Table {
     pub of: usize,
 }
 
-impl Table {
+impl SampleTable {
     /// The rows of a split whose first columns are so many inputs; every so many of them, where they
     /// are too many for a page.
-    pub fn of(split: &Split, inputs: usize) -> Table {
+    pub fn of(split: &Split, inputs: usize) -> SampleTable {
         let rows = split.rows();
-        let every = rows.div_ceil(MOST_ROWS);
+        let every = rows.div_ceil(MAX_ROWS);
         let thinned = |column: &Vec<f32>| column.iter().copied().step_by(every).collect();
         let (given, found) = split.columns.split_at(inputs);
         let outputs = found.iter().map(thinned).collect();
         if every > 1 || split.grid.is_empty() {
             let inputs = given.iter().map(thinned).collect();
-            return Table { grid: Vec::new(), inputs, outputs, of: rows };
+            return SampleTable { grid: Vec::new(), inputs, outputs, of: rows };
         }
         let places = |(axis, column): (usize, &Vec<f32>)| {
             let below: usize = split.grid[axis + 1..].iter().product();
             (0..split.grid[axis]).map(|i| column[i * below]).collect()
         };
         let inputs = given.iter().enumerate().map(places).collect();
-        Table { grid: split.grid.clone(), inputs, outputs, of: rows }
+        SampleTable { grid: split.grid.clone(), inputs, outputs, of: rows }
     }
 }
 
@@ -52,9 +52,9 @@ mod tests {
             vec![1.0; 6],
         ];
         let split = Split { columns, grid: vec![2, 3], ..Split::default() };
-        let table = Table::of(&split, 2);
+        let table = SampleTable::of(&split, 2);
         assert_eq!(table.inputs, [vec![0.0, 1.0], vec![5.0, 6.0, 7.0]]);
-        let rows = Table::of(&Split { grid: vec![], ..split }, 2);
+        let rows = SampleTable::of(&Split { grid: vec![], ..split }, 2);
         assert_eq!((rows.inputs[1].len(), rows.of), (6, 6));
     }
 
@@ -62,7 +62,7 @@ mod tests {
     fn many_rows_are_thinned_out() {
         let column: Vec<f32> = (0..40_000).map(|i| i as f32).collect();
         let split = Split { columns: vec![column.clone(), column], ..Split::default() };
-        let table = Table::of(&split, 1);
+        let table = SampleTable::of(&split, 1);
         assert_eq!(table.outputs[0][..3], [0.0, 3.0, 6.0]);
         assert_eq!((table.outputs[0].len(), table.of), (13_334, 40_000));
     }

@@ -1,7 +1,9 @@
 //! The spheres of a page: what its shader is made of.
 
 use crate::dataset::Dataset;
-use crate::report::spheres::{DIFFERENCE_TIMES, Environment, RADIUS, SphereTable, Spheres, View};
+use crate::report::spheres::{
+    DIFFERENCE_TIMES, Environment, RADIUS, Settings, SphereTable, Spheres,
+};
 use serde::Serialize;
 
 /// All of the shader but the formula.
@@ -11,7 +13,7 @@ pub struct PageSpheres {
     /// The place of the one to begin with.
     environment: usize,
     table: SphereTable,
-    view: View,
+    settings: Settings,
     uses_f0: bool,
     radius: f32,
     difference_times: f32,
@@ -25,13 +27,13 @@ struct Surroundings {
 }
 
 /// What the parts of a vector can hold.
-const MOST_INPUTS: usize = 4;
+const MAX_INPUTS: usize = 4;
 
 impl PageSpheres {
     /// Nothing if no scene is known for the columns, or the samples are no even grid.
     pub fn of(dataset: &Dataset) -> Option<PageSpheres> {
         let Dataset { inputs, outputs, .. } = dataset;
-        if inputs.len() > MOST_INPUTS {
+        if inputs.len() > MAX_INPUTS {
             return None;
         }
         let surroundings = |&environment: &Environment| {
@@ -48,7 +50,7 @@ impl PageSpheres {
             uses_f0,
             environments,
             table: SphereTable::of(dataset)?,
-            view: View::default(),
+            settings: Settings::default(),
             radius: RADIUS,
             difference_times: DIFFERENCE_TIMES,
         })

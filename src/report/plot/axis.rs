@@ -2,7 +2,7 @@
 
 /// Errors beyond are drawn as these: their logarithms are not worth the paper.
 const ERRORS: (f64, f64) = (1e-30, 1e30);
-const MOST_CYCLES: f64 = 1e15;
+const MAX_CYCLES: f64 = 1e15;
 
 /// The part of the axis of errors below the least of them where some are zero.
 const ROOM_FOR_ZERO: f64 = 0.12;
@@ -24,9 +24,9 @@ pub(super) struct Cycles {
 impl Cycles {
     pub(super) fn over(cycles: impl Iterator<Item = f64>) -> Cycles {
         // Room for the marker of the costliest.
-        let most = cycles.fold(0.0, f64::max).min(MOST_CYCLES) * 1.01;
+        let most = cycles.fold(0.0, f64::max).min(MAX_CYCLES) * 1.01;
         let mut steps = (0..).map(|i| mantissa(i) * 10f64.powi(i / 3));
-        let step = steps.find(|step| step * 10.0 >= most).unwrap_or(MOST_CYCLES);
+        let step = steps.find(|step| step * 10.0 >= most).unwrap_or(MAX_CYCLES);
         Cycles { step, steps: ((most / step).ceil() as u32).max(4) }
     }
 

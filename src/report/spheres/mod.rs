@@ -5,11 +5,11 @@
 //! Directions: x to the right, y up, z to the viewer, who is far away, so v = (0, 0, 1).
 
 mod picture;
-mod scene;
+mod shading;
 mod table;
 
 pub use picture::{Labels, picture};
-pub use scene::Environment;
+pub use shading::Environment;
 pub use table::SphereTable;
 
 use crate::dataset::{Column, Split};
@@ -20,7 +20,7 @@ use serde::Serialize;
 
 /// What the reader can turn.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
-pub struct View {
+pub struct Settings {
     /// Perceptual; alpha = roughness².
     pub roughness: f32,
     /// Reflectance at normal incidence.
@@ -31,9 +31,9 @@ pub struct View {
     pub exposure: f32,
 }
 
-impl Default for View {
-    fn default() -> View {
-        View { roughness: 0.4, f0: 0.5, omega: 0.4, exposure: 0.0 }
+impl Default for Settings {
+    fn default() -> Settings {
+        Settings { roughness: 0.4, f0: 0.5, omega: 0.4, exposure: 0.0 }
     }
 }
 
@@ -57,16 +57,16 @@ pub struct Spheres {
 pub const RADIUS: f32 = 0.94;
 
 impl Spheres {
-    /// Nothing if the columns are none that a scene is known for. Beyond an input's domain its ends
+    /// Nothing if the columns are none that a material is known for. Beyond an input's domain its ends
     /// are taken.
     pub fn of(inputs: &[Column], outputs: &[Column], environment: Environment) -> Option<Spheres> {
         let outputs: Vec<String> = outputs.iter().map(|column| column.name.clone()).collect();
-        let given = scene::given(inputs)?;
-        let light = scene::light(&outputs, environment)?;
+        let given = shading::given(inputs)?;
+        let light = shading::light(&outputs, environment)?;
         Some(Spheres { given, light })
     }
 
-    /// Whether what is drawn depends on [`View::f0`].
+    /// Whether what is drawn depends on [`Settings::f0`].
     pub fn uses_f0(&self) -> bool {
         let f0 = Arg::Input(4);
         [&self.given.0, &self.light.0].into_iter().any(|program| {
@@ -77,16 +77,18 @@ impl Spheres {
 
     /// Whether what is drawn depends on the environment.
     pub fn has_environments(outputs: &[String]) -> bool {
-        scene::has_environment(outputs)
+        shading::has_environment(outputs)
     }
 
     /// The displayed colour, in [0, 1], of each pixel of a square, row by row from the top; outside the
     /// sphere what the nearest place on its rim has.
-    pub fn shade(&self, material: Material, view: &View, size: usize) -> Vec<[f32; 3]> {
+    pub fn shade(&self, material: Material, settings: &Settings, size: usize) -> Vec<[f32; 3]> {
         let pixels = pixels(size);
         let constant = |value: f32| vec![value; size * size];
         let mut columns = pixels.to_vec();
-        columns.extend([view.roughness, view.f0, view.omega, view.exposure].map(constant));
+        columns.extend(
+            [settings.roughness, settings.f0, settings.omega, settings.exposure].map(constant),
+        );
         let inputs = values(&self.given.0, columns.clone());
         columns.extend(match material {
             Material::Formula(program) => values(program, inputs),
@@ -172,10 +174,10 @@ mod tests {
     fn a_perfect_mirror_in_a_uniform_environment_is_white_and_half_of_it_is_not() {
         let spheres = dfg(Environment::Uniform);
         let white = program("scale = 0; bias = 1");
-        let shaded = spheres.shade(Material::Formula(&white), &View::default(), 8);
+        let shaded = spheres.shade(Material::Formula(&white), &Settings::default(), 8);
         assert!(shaded.iter().flatten().all(|value| (value - 1.0).abs() < 1e-5), "{shaded:?}");
         let half = program("scale = n_dot_v/n_dot_v; bias = 0");
-        let shaded = spheres.shade(Material::Formula(&half), &View::default(), 8);
+        let shaded = spheres.shade(Material::Formula(&half), &Settings::default(), 8);
         // sRGB of a half (IEC 61966-2-1): 0.7354.
         assert!(shaded.iter().flatten().all(|value| (value - 0.7354).abs() < 1e-3), "{shaded:?}");
     }
@@ -186,8 +188,8 @@ mod tests {
         for environment in Environment::ALL {
             let spheres = dfg(environment);
             for roughness in [0.0, 0.05, 0.5, 1.0] {
-                let view = View { roughness, f0: 1.0, ..View::default() };
-                let shaded = spheres.shade(Material::Formula(&program), &view, 24);
+                let settings = Settings { roughness, f0: 1.0, ..Settings::default() };
+                let shaded = spheres.shade(Material::Formula(&program), &settings, 24);
                 assert!(shaded.iter().flatten().all(|v| (0.0..=1.0).contains(v)), "{environment}");
                 assert!(shaded.iter().any(|pixel| pixel[1] > 0.3), "{environment} at {roughness}");
             }
@@ -195,7 +197,7 @@ mod tests {
     }
 
     #[test]
-    fn columns_without_a_scene_have_none() {
+    fn columns_without_a_material_have_none() {
         let scene = |inputs: &[&str], outputs: &[&str]| {
             Spheres::of(&columns(inputs), &columns(outputs), Environment::Sky).is_some()
         };

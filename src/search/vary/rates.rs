@@ -15,7 +15,7 @@ pub(in crate::search) struct Rates {
 const MEMORY: f64 = 0.9;
 
 /// A kind that pays more often than the others is made more often, up to so many times.
-const MOST_FAVOURED: f64 = 1.7;
+const MAX_FAVOURED: f64 = 1.7;
 
 /// Fits that are made up for each kind, so that nothing is concluded from a few.
 const PRIOR: f64 = 50.0;
@@ -44,7 +44,7 @@ impl Rates {
         let usual = (sum(&self.admitted) + 1.0) / (sum(&self.fitted) + 1.0);
         std::array::from_fn(|kind| {
             let pays = (self.admitted[kind] + PRIOR * usual) / (self.fitted[kind] + PRIOR);
-            MOVES[kind].1 * (pays / usual).clamp(1.0 / MOST_FAVOURED, MOST_FAVOURED)
+            MOVES[kind].1 * (pays / usual).clamp(1.0 / MAX_FAVOURED, MAX_FAVOURED)
         })
     }
 }
@@ -62,8 +62,8 @@ mod tests {
             rates.note(2, false);
         }
         let share = |rates: &Rates, kind: usize| rates.weights()[kind] / MOVES[kind].1;
-        assert!((share(&rates, 0) - MOST_FAVOURED).abs() < 1e-9);
-        assert!((share(&rates, 1) - 1.0 / MOST_FAVOURED).abs() < 1e-9);
+        assert!((share(&rates, 0) - MAX_FAVOURED).abs() < 1e-9);
+        assert!((share(&rates, 1) - 1.0 / MAX_FAVOURED).abs() < 1e-9);
         assert!((share(&rates, 2) - 1.0).abs() < 1e-3);
         (0..200).for_each(|_| rates.fade());
         assert!((share(&rates, 0) - 1.0).abs() < 1e-3);

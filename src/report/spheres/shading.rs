@@ -208,7 +208,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn every_scene_is_a_program_in_every_environment() {
+    fn every_material_is_a_program_in_every_environment() {
         for (outputs, _, _) in SCENES {
             let outputs: Vec<String> = outputs.iter().map(|&output| output.to_owned()).collect();
             for environment in Environment::ALL {
