@@ -44,48 +44,48 @@ impl Fitter {
 
     /// Fits every constant of effective code to the samples by least squares, starting from
     /// the values that it has, and gives the weighted sum of squared errors over all outputs. The
-    /// result is not finite, and the constants are as they were, if the program's outputs or
+    /// result is not finite, and the constants are as they were, if the draft's outputs or
     /// derivatives are not finite on the samples.
     ///
     /// # Panics
     /// If the samples have other numbers of inputs or outputs than the program.
-    pub fn fit(&mut self, program: &mut Draft, samples: &Samples, stop: Stop) -> f64 {
-        self.fit_free(program, samples, stop, |_| true)
+    pub fn fit(&mut self, draft: &mut Draft, samples: &Samples, stop: Stop) -> f64 {
+        self.fit_free(draft, samples, stop, |_| true)
     }
 
     /// [`Fitter::fit`] of those constants that are free, by index; the others keep their values.
     pub fn fit_free(
         &mut self,
-        program: &mut Draft,
+        draft: &mut Draft,
         samples: &Samples,
         stop: Stop,
         is_free: impl Fn(usize) -> bool,
     ) -> f64 {
-        self.derivative.assign_free(program, is_free);
+        self.derivative.assign_free(draft, is_free);
         self.tape.prepare(&self.derivative.program);
         self.constants.clone_from(&self.derivative.program.consts);
         self.damping = 1e-3;
         let jacobian = &self.derivative.jacobian;
         self.evaluator.normal_equations(&self.tape, jacobian, samples, &mut self.current);
-        self.go_on(program, samples, stop)
+        self.go_on(draft, samples, stop)
     }
 
     /// Takes further steps of the last [`Fitter::fit`], which was of the same program and samples.
-    pub fn go_on(&mut self, program: &mut Draft, samples: &Samples, stop: Stop) -> f64 {
-        if program.consts.is_empty() || !is_finite(&self.current) {
+    pub fn go_on(&mut self, draft: &mut Draft, samples: &Samples, stop: Stop) -> f64 {
+        if draft.consts.is_empty() || !is_finite(&self.current) {
             return self.current.sum_of_squares;
         }
         for _ in 0..stop.max_steps {
             if self.is_cut(samples) {
                 break;
             }
-            match self.step(program.consts.len(), samples) {
+            match self.step(draft.consts.len(), samples) {
                 Some(gain) if gain >= stop.min_gain => {}
                 _ => break,
             }
         }
-        let fitted = &self.constants[..program.consts.len()];
-        program.consts.copy_from_slice(fitted);
+        let fitted = &self.constants[..draft.consts.len()];
+        draft.consts.copy_from_slice(fitted);
         self.current.sum_of_squares
     }
 

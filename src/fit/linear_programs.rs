@@ -30,20 +30,20 @@ impl Linearised {
     fn assign(
         &mut self,
         fitter: &mut Fitter,
-        program: &Draft,
+        draft: &Draft,
         samples: &Samples,
         is_free: impl Fn(usize) -> bool,
         values: &mut Values,
     ) {
-        fitter.derivative.assign_free(program, is_free);
+        fitter.derivative.assign_free(draft, is_free);
         fitter.tape.prepare(&fitter.derivative.program);
         fitter.evaluator.outputs_into(&fitter.tape, samples, values);
         let entries = &fitter.derivative.jacobian.entries[..samples.outputs()];
         let matters = |constant: &usize| {
             entries.iter().flatten().any(|&(parameter, _)| usize::from(parameter) == *constant)
         };
-        let scale = |constant: usize| f64::from(program.consts[constant].abs()).max(MIN_SCALE);
-        self.constants = (0..program.consts.len())
+        let scale = |constant: usize| f64::from(draft.consts[constant].abs()).max(MIN_SCALE);
+        self.constants = (0..draft.consts.len())
             .filter(matters)
             .map(|constant| (constant, scale(constant)))
             .collect();
@@ -95,14 +95,14 @@ impl Linearised {
 /// overdetermined systems of non-linear equations"). Gives the largest error.
 pub(super) fn by_linear_programs(
     fitter: &mut Fitter,
-    program: &mut Draft,
+    draft: &mut Draft,
     samples: &Samples,
     most: u32,
     is_free: impl Fn(usize) -> bool + Copy,
     mut best: f64,
 ) -> f64 {
     let mut values = Values::default();
-    let mut trial = program.clone();
+    let mut trial = draft.clone();
     let mut radius = FIRST_RADIUS;
     let mut linear = Linearised::default();
     let mut stale = true;
@@ -112,13 +112,13 @@ pub(super) fn by_linear_programs(
             break;
         }
         if stale {
-            linear.assign(fitter, program, samples, is_free, &mut values);
+            linear.assign(fitter, draft, samples, is_free, &mut values);
         }
         let Some((step, least)) = linear.step(radius) else { break };
         if least > best * (1.0 - MIN_GAIN) {
             break;
         }
-        trial.copy_from(program);
+        trial.copy_from(draft);
         for (&(constant, scale), step) in linear.constants.iter().zip(step) {
             trial.consts[constant] += (step * radius * scale) as f32;
         }
@@ -127,7 +127,7 @@ pub(super) fn by_linear_programs(
         let gain = (best - largest) / (best - least);
         if stale {
             best = largest;
-            program.copy_from(&trial);
+            draft.copy_from(&trial);
         }
         let change = match gain {
             gain if gain > 0.75 => 2.0,

@@ -38,28 +38,28 @@ impl Rounds {
 ///
 /// # Panics
 /// As [`Fitter::fit`].
-pub fn minimax(fitter: &mut Fitter, program: &mut Draft, samples: &Samples, rounds: Rounds) -> f64 {
-    minimax_free(fitter, program, samples, rounds, |_| true)
+pub fn minimax(fitter: &mut Fitter, draft: &mut Draft, samples: &Samples, rounds: Rounds) -> f64 {
+    minimax_free(fitter, draft, samples, rounds, |_| true)
 }
 
 /// [`minimax`] of those constants that are free, by index; the others keep their values.
 pub fn minimax_free(
     fitter: &mut Fitter,
-    program: &mut Draft,
+    draft: &mut Draft,
     samples: &Samples,
     rounds: Rounds,
     is_free: impl Fn(usize) -> bool + Copy,
 ) -> f64 {
-    let mut best = by_weights(fitter, program, samples, rounds, is_free);
+    let mut best = by_weights(fitter, draft, samples, rounds, is_free);
     if best <= rounds.wanted * NEAR {
-        best = by_linear_programs(fitter, program, samples, rounds.linear_programs, is_free, best);
+        best = by_linear_programs(fitter, draft, samples, rounds.linear_programs, is_free, best);
     }
     best
 }
 
 fn by_weights(
     fitter: &mut Fitter,
-    program: &mut Draft,
+    draft: &mut Draft,
     samples: &Samples,
     rounds: Rounds,
     is_free: impl Fn(usize) -> bool + Copy,
@@ -68,11 +68,11 @@ fn by_weights(
     let mut weights: Vec<Vec<f32>> = (0..samples.outputs()).map(given).collect();
     let mut weighted = samples.clone();
     let mut values = Values::default();
-    let mut trial = program.clone();
+    let mut trial = draft.clone();
     let (mut mean, mut best) = errors(fitter, &trial, samples, &mut values);
     for _ in 0..rounds.most {
         let hopeless = best > rounds.wanted * FAR || !mean.is_finite();
-        if hopeless || fitter.is_cut(samples) || best == 0.0 || program.consts.is_empty() {
+        if hopeless || fitter.is_cut(samples) || best == 0.0 || draft.consts.is_empty() {
             break;
         }
         for (output, weights) in weights.iter_mut().enumerate() {
@@ -89,7 +89,7 @@ fn by_weights(
         (mean, largest) = errors(fitter, &trial, samples, &mut values);
         if largest < best {
             best = largest;
-            program.copy_from(&trial);
+            draft.copy_from(&trial);
         }
     }
     best
@@ -110,26 +110,26 @@ const MIN_GROWTH: f32 = 0.05;
 /// As [`Fitter::fit`].
 pub fn shorten_minimax(
     fitter: &mut Fitter,
-    program: &mut Draft,
+    draft: &mut Draft,
     samples: &Samples,
     allowance: f64,
 ) -> f64 {
     let mut comparison = Comparison::by_maximum(samples);
-    let limit = comparison.error(fitter, program) * (1.0 + allowance);
-    for constant in 0..program.consts.len() {
-        let exact = program.consts[constant];
+    let limit = comparison.error(fitter, draft) * (1.0 + allowance);
+    for constant in 0..draft.consts.len() {
+        let exact = draft.consts[constant];
         for digits in 0..=MAX_DIGITS {
             if fitter.is_cut(samples) {
-                return errors(fitter, program, samples, &mut Values::default()).1;
+                return errors(fitter, draft, samples, &mut Values::default()).1;
             }
-            program.consts[constant] = rounded(exact, digits);
-            if comparison.error(fitter, program) <= limit {
+            draft.consts[constant] = rounded(exact, digits);
+            if comparison.error(fitter, draft) <= limit {
                 break;
             }
-            program.consts[constant] = exact;
+            draft.consts[constant] = exact;
         }
     }
-    errors(fitter, program, samples, &mut Values::default()).1
+    errors(fitter, draft, samples, &mut Values::default()).1
 }
 
 /// To a mean of 1, with a floor that keeps every sample in sight.
@@ -145,11 +145,11 @@ fn normalise(weights: &mut [Vec<f32>]) {
 /// The mean and the largest absolute error; both infinite if any output is not finite.
 pub(super) fn errors(
     fitter: &mut Fitter,
-    program: &Draft,
+    draft: &Draft,
     samples: &Samples,
     values: &mut Values,
 ) -> (f64, f64) {
-    let Ok(program) = Program::verify(program.clone()) else {
+    let Ok(program) = Program::verify(draft.clone()) else {
         return (f64::INFINITY, f64::INFINITY);
     };
     fitter.evaluator.outputs_into(&Tape::new(&program), samples, values);

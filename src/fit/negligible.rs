@@ -18,15 +18,10 @@ const NEAR: f64 = 16.0;
 ///
 /// # Panics
 /// As [`Fitter::fit`].
-pub fn drop_negligible(
-    fitter: &mut Fitter,
-    program: &mut Draft,
-    samples: &Samples,
-    allowance: f64,
-) {
+pub fn drop_negligible(fitter: &mut Fitter, draft: &mut Draft, samples: &Samples, allowance: f64) {
     let mut comparison = Comparison::by_squares(samples);
-    let limit = comparison.error(fitter, program) * (1.0 + allowance);
-    drop_within(limit, program, |trial| {
+    let limit = comparison.error(fitter, draft) * (1.0 + allowance);
+    drop_within(limit, draft, |trial| {
         if fitter.is_cut(samples) {
             return f64::INFINITY;
         }
@@ -45,32 +40,32 @@ pub fn drop_negligible(
 /// As [`Fitter::fit`].
 pub fn drop_negligible_minimax(
     fitter: &mut Fitter,
-    program: &mut Draft,
+    draft: &mut Draft,
     samples: &Samples,
     allowance: f64,
 ) {
     let mut comparison = Comparison::by_maximum(samples);
-    let limit = comparison.error(fitter, program) * (1.0 + allowance);
-    drop_within(limit, program, |trial| match fitter.is_cut(samples) {
+    let limit = comparison.error(fitter, draft) * (1.0 + allowance);
+    drop_within(limit, draft, |trial| match fitter.is_cut(samples) {
         true => f64::INFINITY,
         false => comparison.error(fitter, trial),
     });
 }
 
-fn drop_within(limit: f64, program: &mut Draft, mut error: impl FnMut(&mut Draft) -> f64) {
+fn drop_within(limit: f64, draft: &mut Draft, mut error: impl FnMut(&mut Draft) -> f64) {
     if !limit.is_finite() {
         return;
     }
     let mut simplifier = Simplifier::default();
     let mut constant = 0;
-    while constant < program.consts.len() {
+    while constant < draft.consts.len() {
         let dropped = [0.0, 1.0, -1.0].into_iter().find_map(|value| {
-            let mut trial = without(program, constant, value, &mut simplifier)?;
+            let mut trial = without(draft, constant, value, &mut simplifier)?;
             (error(&mut trial) <= limit).then_some(trial)
         });
         match dropped {
             // The place is the next one's now.
-            Some(smaller) => *program = smaller,
+            Some(smaller) => *draft = smaller,
             None => constant += 1,
         }
     }
@@ -78,16 +73,16 @@ fn drop_within(limit: f64, program: &mut Draft, mut error: impl FnMut(&mut Draft
 
 /// The program with a constant replaced by one that an operation may do without; nothing where none does.
 fn without(
-    program: &Draft,
+    draft: &Draft,
     constant: usize,
     value: f32,
     simplifier: &mut Simplifier,
 ) -> Option<Draft> {
-    let mut trial = program.clone();
+    let mut trial = draft.clone();
     trial.consts[constant] = value;
     let mut folded = Draft::default();
     simplifier.fold_constants(&trial, &mut folded);
-    (size(&folded) < size(program)).then_some(folded)
+    (size(&folded) < size(draft)).then_some(folded)
 }
 
 /// Instructions, and constants read.

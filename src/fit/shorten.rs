@@ -19,40 +19,40 @@ pub(super) const MAX_DIGITS: usize = 7;
 ///
 /// # Panics
 /// As [`Fitter::fit`].
-pub fn shorten(fitter: &mut Fitter, program: &mut Draft, samples: &Samples, allowance: f64) -> f64 {
-    shorten_free(fitter, program, samples, allowance, |_| true)
+pub fn shorten(fitter: &mut Fitter, draft: &mut Draft, samples: &Samples, allowance: f64) -> f64 {
+    shorten_free(fitter, draft, samples, allowance, |_| true)
 }
 
 /// [`shorten`] of those constants that are free, by index; the others keep their values.
 pub fn shorten_free(
     fitter: &mut Fitter,
-    program: &mut Draft,
+    draft: &mut Draft,
     samples: &Samples,
     allowance: f64,
     is_free: impl Fn(usize) -> bool,
 ) -> f64 {
-    let mut loss = fitter.fit(program, samples, NOTHING);
+    let mut loss = fitter.fit(draft, samples, NOTHING);
     let mut comparison = Comparison::by_squares(samples);
-    let limit = comparison.error(fitter, program) * (1.0 + allowance);
-    let free: Vec<usize> = (0..program.consts.len()).filter(|&i| is_free(i)).collect();
-    let order = simplest_first(free, limit, program, |trial| match fitter.is_cut(samples) {
+    let limit = comparison.error(fitter, draft) * (1.0 + allowance);
+    let free: Vec<usize> = (0..draft.consts.len()).filter(|&i| is_free(i)).collect();
+    let order = simplest_first(free, limit, draft, |trial| match fitter.is_cut(samples) {
         true => f64::INFINITY,
         false => comparison.error(fitter, trial),
     });
-    let mut trial = program.clone();
+    let mut trial = draft.clone();
     for (place, &constant) in order.iter().enumerate() {
         let later = &order[place + 1..];
         for digits in 0..=MAX_DIGITS {
             if fitter.is_cut(samples) {
                 return loss;
             }
-            trial.copy_from(program);
-            trial.consts[constant] = rounded(program.consts[constant], digits);
+            trial.copy_from(draft);
+            trial.consts[constant] = rounded(draft.consts[constant], digits);
             // What is nearly 0 needs nothing to make up for it.
             let stop = if digits == 0 { NOTHING } else { MAKE_UP };
             let trial_loss = fitter.fit_free(&mut trial, samples, stop, |i| later.contains(&i));
             if comparison.error(fitter, &trial) <= limit {
-                program.copy_from(&trial);
+                draft.copy_from(&trial);
                 loss = trial_loss;
                 break;
             }
@@ -66,12 +66,12 @@ pub fn shorten_free(
 fn simplest_first(
     mut constants: Vec<usize>,
     limit: f64,
-    program: &Draft,
+    draft: &Draft,
     mut error: impl FnMut(&Draft) -> f64,
 ) -> Vec<usize> {
-    let mut trial = program.clone();
+    let mut trial = draft.clone();
     let mut is_simple = |constant: usize| {
-        let value = program.consts[constant];
+        let value = draft.consts[constant];
         let simple = rounded(value, 1);
         if (simple - value).abs() > NEARLY * value.abs() {
             return false;
