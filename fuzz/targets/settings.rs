@@ -2,7 +2,7 @@
 #![no_main]
 
 use lgp::cost::Profile;
-use lgp::dataset::{Column, Dataset, Split};
+use lgp::dataset::{Column, Dataset, Origin, Split};
 use lgp::grammar::Grammar;
 use lgp::program::{Names, Program, parse};
 use lgp::scene::Scene;
@@ -15,19 +15,11 @@ static PROGRAM: LazyLock<Program> = LazyLock::new(|| {
 });
 
 static DATASET: LazyLock<Dataset> = LazyLock::new(|| {
-    let column = |name| Column::new(name, [0.0, 1.0]);
-    let cell = |i: usize| i as f32 / 4.0;
-    let of = |f: fn(usize) -> usize| (0..25).map(|i| cell(f(i))).collect::<Vec<f32>>();
-    let columns = vec![of(|i| i / 5), of(|i| i % 5), of(|i| i / 5), of(|i| i % 5)];
-    let split = Split { columns, grid: vec![5, 5], ..Split::default() };
-    Dataset {
-        name: "grid".into(),
-        inputs: vec![column("a"), column("b")],
-        outputs: vec![column("y"), column("z")],
-        search: split.clone(),
-        validation: split,
-        ..Dataset::default()
-    }
+    let places = vec![(0..5).map(|i| i as f32 / 4.0).collect(); 2];
+    let split = Split::on_grid(&places, |p| [p[0], p[1]]);
+    let (inputs, outputs) = (["a", "b"].map(|name| Column::new(name, [0.0, 1.0])), ["y", "z"]);
+    let (outputs, splits) = (outputs.map(|name| (name, "1")), [split.clone(), split]);
+    Dataset::of_splits("grid", Origin::default(), inputs.into(), outputs, splits).expect("numbers")
 });
 
 fuzz_target!(|content: &[u8]| {

@@ -132,10 +132,7 @@ fn imported(path: &Path, mut table: Table, inputs: &InputColumns) -> Result<Data
 }
 
 fn read_text(path: &Path) -> Result<String, Error> {
-    let bytes = read_file(path, LARGEST_FILE).map_err(|source| match source.kind() {
-        std::io::ErrorKind::NotFound => Error::Missing { path: path.into() },
-        _ => Error::Io { path: path.into(), action: "read", source },
-    })?;
+    let bytes = read_file(path, LARGEST_FILE).map_err(|source| Error::unread(path, source))?;
     String::from_utf8(bytes).map_err(|error| {
         let valid = &error.as_bytes()[..error.utf8_error().valid_up_to()];
         let line = 1 + valid.iter().filter(|&&byte| byte == b'\n').count();

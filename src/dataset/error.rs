@@ -1,7 +1,7 @@
 use super::{MAX_COLUMNS, MAX_ROWS, NameFault};
 use crate::printable::printable;
 use crate::program::shortest;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 /// Why a dataset cannot be read, written or used. `path` is the file, or the
 /// dataset's name where there is none; `row` counts from 1 within its split,
@@ -100,6 +100,16 @@ pub enum Error {
 
     #[error("{path}, line {line}: unusable incumbents: {problem}", path = path.display())]
     Incumbents { path: PathBuf, line: usize, problem: String },
+}
+
+impl Error {
+    /// A file that could not be read.
+    pub(super) fn unread(path: &Path, source: std::io::Error) -> Error {
+        match source.kind() {
+            std::io::ErrorKind::NotFound => Error::Missing { path: path.into() },
+            _ => Error::Io { path: path.into(), action: "read", source },
+        }
+    }
 }
 
 fn at_line(line: Option<usize>) -> String {

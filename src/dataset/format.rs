@@ -66,10 +66,7 @@ impl Dataset {
     /// beyond [`LARGEST_FILE`], truncated, too long, damaged, or whose content [`Dataset::validate`]
     /// refuses. Nothing is allocated on the word of an unverified header.
     pub fn load(path: &Path) -> Result<Dataset, Error> {
-        let bytes = read_file(path, LARGEST_FILE).map_err(|source| match source.kind() {
-            std::io::ErrorKind::NotFound => Error::Missing { path: path.into() },
-            _ => Error::Io { path: path.into(), action: "read", source },
-        })?;
+        let bytes = read_file(path, LARGEST_FILE).map_err(|source| Error::unread(path, source))?;
         Dataset::parse(path, &bytes)
     }
 

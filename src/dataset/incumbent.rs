@@ -57,10 +57,7 @@ impl Incumbent {
 /// A file that cannot be read, is no list of incumbents, names two alike, or
 /// holds a formula that is none.
 pub fn load_incumbents(path: &Path) -> Result<Vec<Incumbent>, Error> {
-    let text = read_text(path, LARGEST_TEXT).map_err(|source| match source.kind() {
-        std::io::ErrorKind::NotFound => Error::Missing { path: path.into() },
-        _ => Error::Io { path: path.into(), action: "read", source },
-    })?;
+    let text = read_text(path, LARGEST_TEXT).map_err(|source| Error::unread(path, source))?;
     let refused = |line, problem| Error::Incumbents { path: path.into(), line, problem };
     let incumbents: Vec<Incumbent> = ron::from_str(&text)
         .map_err(|error| refused(error.span.start.line, error.code.to_string()))?;

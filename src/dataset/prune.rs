@@ -100,28 +100,15 @@ fn spread(values: impl Iterator<Item = f32>) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::dataset::Column;
+    use crate::dataset::{Axis, Origin};
 
     /// A step with a flat left half, on 32 by 32 points.
     fn ramp() -> Dataset {
-        let column = |name| Column::new(name, [0.0, 1.0]);
-        let mut columns = vec![Vec::new(); 3];
-        for i in 0..32 {
-            for j in 0..32 {
-                let [x, y] = [i, j].map(|k| (k as f32 + 0.5) / 32.0);
-                let row = [x, y, (2.0 * x - 1.0).max(0.0) * (1.0 + y)];
-                columns.iter_mut().zip(row).for_each(|(column, value)| column.push(value));
-            }
-        }
-        let split = Split { columns, grid: vec![32, 32], ..Split::default() };
-        Dataset {
-            name: "ramp".into(),
-            inputs: vec![column("x"), column("y")],
-            outputs: vec![column("z")],
-            search: split.clone(),
-            validation: split,
-            ..Dataset::default()
-        }
+        let axes = [Axis::unit("x"), Axis::unit("y")];
+        let places = axes.each_ref().map(|axis| axis.centres(32));
+        let split = Split::on_grid(&places, |p| [(2.0 * p[0] - 1.0).max(0.0) * (1.0 + p[1])]);
+        let (inputs, splits) = (axes.each_ref().map(Axis::column), [split.clone(), split]);
+        Dataset::of_splits("ramp", Origin::default(), inputs.into(), [("z", "1")], splits).unwrap()
     }
 
     #[test]

@@ -8,24 +8,16 @@
 //! A scene is a `.ron` file:
 //!
 //! ```
-//! use lgp::dataset::{Column, Dataset, Split};
+//! # use lgp::dataset::{Column, Dataset, Origin, Split};
 //! use lgp::scene::Scene;
 //! let scene = Scene::parse("dielectric", r#"(
 //!     ranges: {"roughness": (0.25, 0.75)},
 //!     fixed: {"f0": 0.04},
 //!     outputs: {"specular": "f0*scale + bias"},
 //! )"#)?;
-//! # let column = |name| Column::new(name, [0.0, 1.0]);
-//! # let columns = vec![vec![0.0, 0.5, 1.0], vec![0.5, 0.75, 1.0], vec![0.5, 0.25, 0.0]];
-//! # let split = Split { columns, ..Split::default() };
-//! # let dataset = Dataset {
-//! #     name: "dfg".into(),
-//! #     inputs: vec![column("roughness")],
-//! #     outputs: vec![column("scale"), column("bias")],
-//! #     search: split.clone(),
-//! #     validation: split,
-//! #     ..Dataset::default()
-//! # };
+//! # let split = Split::on_grid(&[vec![0.0, 0.5, 1.0]], |x| [0.5 + 0.5*x[0], 0.5 - 0.5*x[0]]);
+//! # let (inputs, outputs) = (vec![Column::new("roughness", [0.0, 1.0])], [("scale", "1"), ("bias", "1")]);
+//! # let dataset = Dataset::of_splits("dfg", Origin::default(), inputs, outputs, [split.clone(), split]).unwrap();
 //! let view = scene.over(&dataset)?.dataset()?;
 //! assert_eq!(view.outputs[0].name, "specular");
 //! assert_eq!(view.search.columns, [[0.5], [0.28]]);

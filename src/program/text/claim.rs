@@ -3,6 +3,7 @@
 use super::{Names, ParseError, parse};
 use crate::op::Op;
 use crate::program::{Arg, Program};
+use std::ops::Range;
 
 /// What is asserted of a formula's outputs, wherever its inputs are in their domain.
 #[derive(Clone, Debug, PartialEq)]
@@ -32,75 +33,37 @@ impl Claim {
     /// # Errors
     /// [`ParseError`] says where the text is wrong, and what may stand there.
     pub fn parse(text: &str, names: &Names) -> Result<Claim, ParseError> {
-        let wrong = |at: usize, message: String| ParseError::at(text, at, message);
-        if let Some(at) = text.find(['\n', ';', '#']).or((text.len() > LONGEST).then_some(0)) {
-            return Err(wrong(
-                at,
-                format!("a claim is one comparison, of {LONGEST} bytes at most"),
-            ));
-        }
-        let colon = text.find(':').ok_or_else(|| wrong(0, SHAPE.into()))?;
-        let name = Claim::name_of(text);
-        if !is_identifier(name) || ALWAYS_ASKED.contains(&name) {
-            let reason =
-                format!("`{name}` is no name for a claim: give a word other than finite and range");
-            return Err(wrong(0, reason));
-        }
+        let wrong = |at: usize, message: String| Err(ParseError::at(text, at, message));
+        let colon = check_name(text)?;
         let end = text[colon..].find(" for ").map_or(text.len(), |at| colon + at);
         let variables = variables(text, end, names)?;
-        let signs = ["<=", ">=", "≤", "≥"].into_iter();
-        let mut signs: Vec<(usize, &str)> =
-            signs.flat_map(|sign| text[colon..end].match_indices(sign)).collect();
-        signs.sort_unstable();
-        let &[(sign, compared)] = signs.as_slice() else {
-            let at = signs.get(1).map_or(end, |(at, _)| colon + at);
-            return Err(wrong(at, format!("{SHAPE}: one `<=` or `>=`")));
-        };
-        let sign = colon + sign;
-        let mut all = Names { outputs: vec!["_".repeat(name.len())], ..names.clone() };
-        all.inputs
-            .extend(names.outputs.iter().chain(variables.iter().map(|(name, _)| name)).cloned());
-        let sides = [colon + 1..sign, sign + compared.len()..end];
-        // Its place in the text is the place in the formula that is read.
-        let read = |side: &std::ops::Range<usize>| {
-            if text[side.clone()].trim().is_empty() {
-                return Err(wrong(side.end, "expected an expression".into()));
-            }
-            let character = |(at, c): (usize, char)| match at {
-                at if at == colon => '=',
-                at if at < colon && !c.is_whitespace() => '_',
-                at if side.contains(&at) => c,
-                _ => ' ',
-            };
-            let formula: String = text.char_indices().map(character).collect();
-            let in_claim = |error| ParseError { source_line: text.to_owned(), ..error };
-            parse(&formula, &all).map_err(in_claim)
-        };
-        let [left, right] = [read(&sides[0])?, read(&sides[1])?];
+        let (sides, is_least) = comparison(text, colon + 1..end)?;
+        let assigned = vec!["_".repeat(Claim::name_of(text).len())];
+        let mut all = Names { outputs: assigned, ..names.clone() };
+        let beside = names.outputs.iter().chain(variables.iter().map(|(name, _)| name));
+        all.inputs.extend(beside.cloned());
+        let [left, right] =
+            [side(text, colon, &sides[0], &all)?, side(text, colon, &sides[1], &all)?];
         let outputs = names.inputs.len()..names.inputs.len() + names.outputs.len();
         if !reads(&left, &outputs) && !reads(&right, &outputs) {
             let outputs = names.outputs.join(", ");
-            return Err(wrong(
-                colon + 1,
-                format!("it says nothing of an output; there is {outputs}"),
-            ));
+            return wrong(colon + 1, format!("it says nothing of an output; there is {outputs}"));
         }
-        let [left_text, right_text] = sides.map(|side| text[side].trim());
+        let [left_text, right_text] = sides.each_ref().map(|side| text[side.clone()].trim());
         let (expression, program, limit, is_least) = match (constant(&left), constant(&right)) {
-            (_, Some(limit)) => (left_text.to_owned(), left, limit, compared.contains(['>', '≥'])),
-            (Some(limit), _) => {
-                (right_text.to_owned(), right, limit, compared.contains(['<', '≤']))
-            }
+            (_, Some(limit)) => (left_text.to_owned(), left, limit, is_least),
+            (Some(limit), _) => (right_text.to_owned(), right, limit, !is_least),
             (None, None) => {
                 let difference = format!("{left_text} - ({right_text})");
-                (difference, minus(left, &right), 0.0, compared.contains(['>', '≥']))
+                (difference, minus(left, &right), 0.0, is_least)
             }
         };
         if !limit.is_finite() {
-            return Err(wrong(sign, "what it is compared with is no number".into()));
+            return wrong(sides[0].end, "what it is compared with is no number".into());
         }
+        let name = Claim::name_of(text).to_owned();
         let range = if is_least { [limit, f64::INFINITY] } else { [f64::NEG_INFINITY, limit] };
-        Ok(Claim { name: name.to_owned(), expression, program, range, variables })
+        Ok(Claim { name, expression, program, range, variables })
     }
 
     /// The name before the colon.
@@ -118,6 +81,62 @@ impl Claim {
         claims.push(text.trim().to_owned());
         Ok(())
     }
+}
+
+/// The place of the colon behind a name that a claim can have.
+fn check_name(text: &str) -> Result<usize, ParseError> {
+    let wrong = |at: usize, message: String| Err(ParseError::at(text, at, message));
+    if let Some(at) = text.find(['\n', ';', '#']).or((text.len() > LONGEST).then_some(0)) {
+        return wrong(at, format!("a claim is one comparison, of {LONGEST} bytes at most"));
+    }
+    let name = Claim::name_of(text);
+    match text.find(':') {
+        None => wrong(0, SHAPE.into()),
+        Some(colon) if is_identifier(name) && !ALWAYS_ASKED.contains(&name) => Ok(colon),
+        Some(_) => {
+            wrong(0, format!("`{name}` is no name for a claim: give a word but finite and range"))
+        }
+    }
+}
+
+/// The two sides of a comparison, and whether it is the left that is the larger.
+fn comparison(text: &str, whole: Range<usize>) -> Result<([Range<usize>; 2], bool), ParseError> {
+    let signs = [("<=", false), (">=", true), ("≤", false), ("≥", true)].into_iter();
+    let mut signs: Vec<(Range<usize>, bool)> = signs
+        .flat_map(|(sign, is_least)| {
+            let each = text[whole.clone()].match_indices(sign).map(|(at, _)| whole.start + at);
+            each.map(move |at| (at..at + sign.len(), is_least))
+        })
+        .collect();
+    signs.sort_unstable_by_key(|(sign, _)| sign.start);
+    match signs.as_slice() {
+        [(sign, is_least)] => Ok(([whole.start..sign.start, sign.end..whole.end], *is_least)),
+        signs => {
+            let at = signs.get(1).map_or(whole.end, |(sign, _)| sign.start);
+            Err(ParseError::at(text, at, format!("{SHAPE}: one `<=` or `>=`")))
+        }
+    }
+}
+
+/// One side, read as a formula in which everything stands where it does in the claim.
+fn side(
+    text: &str,
+    colon: usize,
+    side: &Range<usize>,
+    names: &Names,
+) -> Result<Program, ParseError> {
+    if text[side.clone()].trim().is_empty() {
+        return Err(ParseError::at(text, side.end, "expected an expression"));
+    }
+    let character = |(at, c): (usize, char)| match at {
+        at if at == colon => '=',
+        at if at < colon && !c.is_whitespace() => '_',
+        at if side.contains(&at) => c,
+        _ => ' ',
+    };
+    let formula: String = text.char_indices().map(character).collect();
+
+    parse(&formula, names).map_err(|error| ParseError { source_line: text.to_owned(), ..error })
 }
 
 fn is_identifier(name: &str) -> bool {
@@ -156,7 +175,7 @@ fn variables(text: &str, end: usize, names: &Names) -> Result<Vec<(String, [f32;
     Ok(variables)
 }
 
-fn reads(program: &Program, inputs: &std::ops::Range<usize>) -> bool {
+fn reads(program: &Program, inputs: &Range<usize>) -> bool {
     let args = program.instrs.iter().flat_map(|instr| instr.args()).chain(&program.outputs);
     args.into_iter().any(|arg| matches!(arg, Arg::Input(i) if inputs.contains(&usize::from(*i))))
 }

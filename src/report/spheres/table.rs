@@ -86,30 +86,18 @@ impl SphereTable {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::dataset::{Column, Split};
+    use crate::dataset::{Column, Origin, Split};
 
     #[test]
     fn a_bilinear_function_is_exact_up_to_an_edge_that_was_moved_in() {
-        let places = [0.25f32, 1.0, 2.0, 3.0];
+        let places = [vec![0.25, 1.0, 2.0, 3.0], vec![0.0, 1.0, 2.0, 3.0, 4.0]];
         let f = |x: f32, y: f32| x + 2.0 * y + 0.5 * x * y;
-        let mut columns = vec![Vec::new(); 3];
-        for x in places {
-            for y in [0.0, 1.0, 2.0, 3.0, 4.0] {
-                columns[0].push(x);
-                columns[1].push(y);
-                columns[2].push(f(x, y));
-            }
-        }
-        let split = Split { columns, grid: vec![4, 5], ..Split::default() };
-        let column = |name| Column::new(name, [0.0, 4.0]);
-        let dataset = Dataset {
-            name: "f".into(),
-            inputs: vec![column("x"), column("y")],
-            outputs: vec![column("z")],
-            search: Split::default(),
-            validation: split,
-            ..Dataset::default()
-        };
+        let split = Split::on_grid(&places, |p| [f(p[0] as f32, p[1] as f32).into()]);
+        let (inputs, splits) =
+            (["x", "y"].map(|name| Column::new(name, [0.0, 4.0])), [split.clone(), split]);
+        let dataset =
+            Dataset::of_splits("f", Origin::default(), inputs.into(), [("z", "1")], splits)
+                .unwrap();
         let table = SphereTable::of(&dataset).unwrap();
         let at = [(0.25, 0.0), (0.5, 3.5), (1.5, 0.25), (3.0, 4.0), (2.75, 1.0)];
         let inputs = [at.map(|(x, _)| x).to_vec(), at.map(|(_, y)| y).to_vec()];
