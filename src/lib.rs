@@ -31,6 +31,27 @@
 //! | [`report`] | plots, maps, the page of a run, spheres |
 //! | [`cli`] | a file a subcommand |
 //!
+//! # Words
+//! | word | meaning |
+//! |---|---|
+//! | operation, instruction | a row of the one table ([`op::Op`]); an operation and its arguments: inputs, constants, *earlier* results |
+//! | draft, program | a string of instructions with its constants and outputs; a draft that was verified, so that it can be evaluated, costed and emitted |
+//! | effective code, intron | the instructions that an output depends on; any other instruction |
+//! | dataset, search split, validation split | columns of samples; the rows that formulas are fitted to; other rows, denser, with the domain's edges, that decide about a front |
+//! | dead zone | the error of a sample that nobody sees and that therefore does not count |
+//! | outer form, hole, child | a function around what is searched ([`program::Outer`]); a value in it that a formula is to be found for; the draft that is varied and fills the holes |
+//! | offspring, mutation, crossover, immigrant | what variation makes of a parent; a random change of it; a piece of another parent; a random draft in place of offspring |
+//! | individual, population, bucket, selection | a fitted child; an island's individuals, the best few at each cost; those of one cost; the choice of parents by rank in a bucket |
+//! | island, migration, barrier | a population that evolves by itself; its best going on to the next island; the end of a generation, where that happens |
+//! | local search | the fit of a candidate's constants ([`fit`]): Levenberg–Marquardt, or the least maximum error |
+//! | archive, front | the best of a search under way, no member dominated in cost and loss; what is left of it, polished and judged |
+//! | measure, loss, error | what is made small ([`fit::Measure`]); its value for a search, a mean square; its root, as it is shown |
+//! | cost, profile | cycles on a GPU; the file that says what a GPU's instructions cost |
+//! | problem, method, session, run | what is asked; how it is searched; a search under way; what it leaves behind |
+//! | scene | what a use needs of a dataset: ranges, fixed inputs, histograms, combined outputs |
+//! | claim, verdict | a comparison that is to hold for every input; proved, refuted with a counterexample, or open |
+//! | incumbent | a published formula for the same data, scored as a member of a front would be |
+//!
 //! # A search in ten lines
 //! ```
 //! use lgp::dataset::{Dataset, axis};
