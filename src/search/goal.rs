@@ -19,8 +19,8 @@ pub struct Goal {
     pub measure: Measure,
     /// What every formula must be.
     pub requirements: Vec<Requirement>,
-    /// By output: the function of it that is searched for; where there are fewer, the output itself. A spelling of
-    /// [`Goal::outer`].
+    /// By output: the function of it that is searched for; where there are fewer, the output itself. A spelling of an
+    /// outer form ([`crate::program::Outer`]).
     pub transforms: Vec<Option<Transform>>,
     /// Cycles that a formula may cost at most.
     pub max_cost: f64,
