@@ -42,6 +42,8 @@ fn dielectrics_have_one_output_and_their_own_incumbent() {
             .ends_with("// scene dielectric: f0 = 0.04; specular = f0*scale + bias")
     );
     assert_ne!(data.hash(), whole.hash());
+    // Neither of the outputs that the claim is over is left.
+    assert_eq!((whole.claims.len(), data.claims.len()), (1, 0));
 
     let own = load_incumbents(&committed("incumbents/dfg_dielectric.ron")).unwrap();
     let known = own[0].compared_on(&data).unwrap();
@@ -61,6 +63,7 @@ fn ranges_leave_a_smaller_grid() {
     // Of 64 cell centres those from 19.5/64 to 57.5/64.
     assert_eq!(data.search.grid, [64, 39]);
     assert_eq!(data.inputs[1].domain, [0.3, 0.9]);
+    assert_eq!(data.claims, whole.claims);
     assert_eq!(data.inputs[0].domain, whole.inputs[0].domain);
     for split in [&data.search, &data.validation] {
         assert!(split.columns[1].iter().all(|r| (0.3..=0.9).contains(r)));

@@ -1,6 +1,6 @@
 //! Recipes as text, and what is said of those that cannot be used.
 
-use lgp::targets::{Error, Recipe};
+use lgp::targets::{Error, Recipe, generate};
 use std::path::Path;
 
 #[test]
@@ -31,6 +31,20 @@ fn recipes_read_back_and_explain_themselves() {
         assert!(error.contains(expected), "{error}");
     }
     assert_eq!(recipe.get("masking"), Some("separable"));
+}
+
+#[test]
+fn a_recipe_claims_more_of_the_outputs() {
+    let text = "(target: \"beckmann_g1\", points: 4, claims: [\"top: g1 <= 1\", \"a: g1 >= 0\"])";
+    let recipe = Recipe::parse(text).unwrap();
+    assert_eq!(recipe.to_string(), text);
+    assert_ne!(recipe, Recipe::parse("(target: \"beckmann_g1\", points: 4)").unwrap());
+    let made = generate(&recipe, &|_, _| {}).unwrap();
+    assert_eq!(made.claims, ["top: g1 <= 1", "a: g1 >= 0"]);
+    assert_eq!(made.origin.source(), text);
+    let wrong = Recipe::parse(&text.replace("top: g1", "top: g2")).unwrap();
+    let error = generate(&wrong, &|_, _| {}).unwrap_err().to_string();
+    assert!(error.contains("column 6") && error.contains("did you mean `g1`?"), "{error}");
 }
 
 #[test]
