@@ -16,7 +16,7 @@
 //! | [`op`] | the one table of operations, and what they mean |
 //! | [`program`] | instructions, verified programs, outer forms, effective code, hashes, formula text |
 //! | [`simplify`] | algebra on programs |
-//! | [`dataset`] | tables of samples, their files, the incumbents |
+//! | [`dataset`] | tables of samples, where they come from, what is claimed of them; their files, the incumbents |
 //! | [`grammar`], [`cost`] | what may be written, what it costs on a GPU; their `.ron` files |
 //! | [`eval`] | the data-parallel interpreter, losses, normal equations, scores; the same programs in f64, f16, intervals |
 //! | [`fit`] | error measures; derivatives by constants, Levenberg–Marquardt, the least maximum; constants with few digits; models of one's own |
