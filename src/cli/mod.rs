@@ -36,7 +36,7 @@ mod verify;
 pub use failure::{Exit, Failure};
 pub use output::Common;
 
-use clap::{Parser, Subcommand};
+use clap::{CommandFactory, Parser, Subcommand};
 use std::ffi::OsString;
 use std::process::ExitCode;
 
@@ -152,12 +152,7 @@ pub fn run_words(words: impl IntoIterator<Item = OsString>) -> ExitCode {
     }
 }
 
-#[cfg(test)]
-mod tests {
-    use clap::CommandFactory;
-
-    #[test]
-    fn the_command_line_is_consistent() {
-        super::Cli::command().debug_assert();
-    }
+/// The command line as data: its subcommands, options and help.
+pub fn command() -> clap::Command {
+    Cli::command()
 }
