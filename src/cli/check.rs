@@ -230,7 +230,7 @@ fn refuted<'a>(args: &Args, verdict: &'a VerdictRecord) -> Option<&'a ClaimRecor
 fn check_front(args: &Args, folder: &Path, common: &Common) -> Result<(), Failure> {
     let (run, front) = run_folder::load(folder, args.which)?;
     let names = run.names();
-    let questions = questions(args, &run.inputs, &run.outputs, &run.claims())?;
+    let questions = questions(args, &run.inputs, &run.outputs, &run.claims)?;
     if let Some(number) = args.pick {
         let member = number.checked_sub(1).and_then(|i| front.members.get(i)).ok_or_else(|| {
             Failure::usage(format!(

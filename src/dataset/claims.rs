@@ -1,6 +1,6 @@
 //! What is claimed of a dataset's outputs.
 
-use super::{Column, Dataset, Error, check_text};
+use super::{Dataset, Error, check_text};
 use crate::program::{Claim, Names};
 use std::path::Path;
 
@@ -42,11 +42,4 @@ pub fn check_claims(path: &Path, claims: &[String], names: &Names) -> Result<(),
         }
     }
     Ok(())
-}
-
-/// What was asked of outputs that were called so when files held no claims.
-pub fn claims_of_old(outputs: &[Column]) -> Vec<String> {
-    let has = |name: &str| outputs.iter().any(|column| column.name == name);
-    let energy = has("scale") && has("bias");
-    energy.then(|| "energy: f0*scale + bias <= 1 for f0 in 0..1".to_owned()).into_iter().collect()
 }

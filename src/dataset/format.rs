@@ -3,9 +3,7 @@
 //! weights, dead zones and standard errors, then the validation split's), and the 32-byte blake3 checksum
 //! of everything before it.
 
-use super::{
-    Column, Dataset, Error, LARGEST_FILE, Origin, Split, claims_of_old, read_file, replace_file,
-};
+use super::{Column, Dataset, Error, LARGEST_FILE, Origin, Split, read_file, replace_file};
 use ron::extensions::Extensions;
 use serde::{Deserialize, Serialize};
 use std::path::Path;
@@ -216,10 +214,7 @@ fn read_header(path: &Path, bytes: &[u8], intact: bool) -> Result<(Header, Origi
     let mut header: Header =
         notation().from_str(text).map_err(|error| unusable(error.to_string()))?;
     let origin = match version {
-        1 => {
-            header.claims = claims_of_old(&header.outputs);
-            header.recipe.as_deref().map(Origin::of_text)
-        }
+        1 => header.recipe.as_deref().map(Origin::of_text),
         _ => header.origin.take(),
     };
     let origin =

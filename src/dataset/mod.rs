@@ -19,8 +19,8 @@ mod sampled;
 mod select;
 mod unit;
 
+pub use claims::check_claims;
 pub(crate) use claims::claims_over;
-pub use claims::{check_claims, claims_of_old};
 pub use csv::{InputColumns, Table, import_csv};
 pub use error::Error;
 pub use file::{StagedFile, TEMPORARY, remove_file, replace_file, witness_file_operations};

@@ -159,8 +159,8 @@ fn facts(run: &Run, dataset: Option<&Dataset>) -> Vec<(String, String)> {
         fact("scene", format!("{}: {}", scene.name, scene.summary()));
     }
     fact("domain", run::domains(&run.inputs));
-    if !run.claims().is_empty() {
-        fact("claims", run.claims().join("; "));
+    if !run.claims.is_empty() {
+        fact("claims", run.claims.join("; "));
     }
     fact("grammar, GPU", format!("{}, {}", run.grammar, run.gpu));
     fact("seed", run::seeds(run));

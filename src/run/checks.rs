@@ -19,8 +19,7 @@ impl Run {
         check_name(&self.name).map_err(|fault| format!("`name` is {:?}: {fault}", self.name))?;
         check_columns(Path::new("columns"), self.inputs.iter().chain(&self.outputs))
             .map_err(|error| error.to_string())?;
-        let claims = self.claims.as_deref().unwrap_or_default();
-        check_claims(Path::new("`claims`"), claims, &self.names())
+        check_claims(Path::new("`claims`"), &self.claims, &self.names())
             .map_err(|error| error.to_string())?;
         self.goal.check(self.inputs.len(), self.outputs.len())?;
         self.method.check()?;

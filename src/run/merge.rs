@@ -58,7 +58,7 @@ fn check(one: &Run, other: &Run) -> Result<(), Incompatible> {
     let differences = [
         ("dataset", data(one), data(other)),
         ("columns", names(one), names(other)),
-        ("claims", one.claims().join("; "), other.claims().join("; ")),
+        ("claims", one.claims.join("; "), other.claims.join("; ")),
         ("requirements", one.requirements(), other.requirements()),
         ("grammar", grammars[0].clone(), grammars[1].clone()),
         ("GPU profile", profiles[0].clone(), profiles[1].clone()),

@@ -3,7 +3,7 @@
 use super::RecordError;
 use super::folder::{RUN, read};
 use crate::cost::Profile;
-use crate::dataset::{Column, claims_of_old};
+use crate::dataset::Column;
 use crate::eval::Isa;
 use crate::grammar::{FileError, Grammar};
 use crate::program::Names;
@@ -32,9 +32,9 @@ pub struct Run {
     /// The columns that were inputs and outputs.
     pub inputs: Vec<Column>,
     pub outputs: Vec<Column>,
-    /// What was claimed of the outputs; none in records of earlier versions.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub claims: Option<Vec<String>>,
+    /// The dataset's claims.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub claims: Vec<String>,
     /// The grammar's name, and what it was when the run was made; records of an older version lack that.
     pub grammar: String,
     #[serde(default, skip_serializing_if = "Option::is_none")]
@@ -119,7 +119,7 @@ impl Run {
             name: data.name.clone(),
             inputs: data.inputs.clone(),
             outputs: data.outputs.clone(),
-            claims: Some(data.claims.clone()),
+            claims: data.claims.clone(),
             grammar: grammar.name.clone(),
             rules: Some(Grammar::clone(grammar)),
             gpu: problem.profile().name.clone(),
@@ -150,14 +150,9 @@ impl Run {
         Names::new(inputs, outputs)
     }
 
-    /// What is claimed of the outputs.
-    pub fn claims(&self) -> Vec<String> {
-        self.claims.clone().unwrap_or_else(|| claims_of_old(&self.outputs))
-    }
-
     /// What is asked of its formulas.
     pub fn questions(&self) -> Questions {
-        Questions::of(&self.inputs, &self.outputs, &self.claims())
+        Questions::of(&self.inputs, &self.outputs, &self.claims)
     }
 
     /// The grammar as it was; that of its name, if it is built in, where the record lacks it.

@@ -1,6 +1,6 @@
 //! Claims: what a text asks, and what becomes of it.
 
-use lgp::dataset::{Column, Dataset, claims_of_old};
+use lgp::dataset::{Column, Dataset};
 use lgp::program::{Claim, Names, parse};
 use lgp::run::Run;
 use lgp::stability::{Questions, Status, Verdict, VerdictRecord};
@@ -144,7 +144,7 @@ fn what_is_no_claim_is_refused_where_it_is_wrong() {
 fn a_selection_keeps_the_claims_over_its_columns() {
     let mut data = Dataset::load(Path::new("datasets/dfg.bin")).unwrap();
     data.claim("small: bias <= 1 - n_dot_v").unwrap();
-    assert_eq!(data.claims[0], claims_of_old(&data.outputs)[0]);
+    assert_eq!(data.claims.len(), 2);
     let select = |inputs: &[&str]| {
         let inputs: Vec<String> = inputs.iter().map(|&name| name.to_owned()).collect();
         data.select(Some(&inputs), Some(&["bias".to_owned()])).unwrap().claims
@@ -155,19 +155,14 @@ fn a_selection_keeps_the_claims_over_its_columns() {
     assert!(error.contains("column 17") && error.contains("did you mean `bias`?"), "{error}");
 }
 
-/// A record without claims is of when energy was asked of outputs of these names.
 #[test]
-fn a_record_of_before_keeps_its_claim() {
+fn a_record_of_a_claim_that_is_none_is_refused_at_its_line() {
     let text = std::fs::read_to_string("tests/fixtures/dfg/run.ron").unwrap();
     let run = Run::from_ron(&text).unwrap();
-    let old = Run { claims: None, ..run.clone() };
-    assert!(!old.to_ron().contains("claims"));
-    let old = Run::from_ron(&old.to_ron()).unwrap();
-    assert_eq!(old.questions(), run.questions());
-    assert_eq!(old.questions().claims[0].name, "energy");
-    let none = Run { claims: Some(vec![]), ..run.clone() };
+    assert_eq!(run.questions().claims[0].name, "energy");
+    let none = Run { claims: Vec::new(), ..run.clone() };
     assert!(Run::from_ron(&none.to_ron()).unwrap().questions().claims.is_empty());
-    let wrong = Run { claims: Some(vec!["energy: scale <= bais".into()]), ..run };
+    let wrong = Run { claims: vec!["energy: scale <= bais".into()], ..run };
     let (line, reason) = Run::from_ron(&wrong.to_ron()).unwrap_err();
     assert!(wrong.to_ron().lines().nth(line - 1).unwrap().contains("claims"), "{line}: {reason}");
     assert!(reason.contains("did you mean `bias`?"), "{reason}");
