@@ -1,7 +1,7 @@
-//! When work ends before it is done: at a moment, or because someone asks for it.
+//! Ends work before it is done: at a moment, or on request.
 //!
-//! What takes long asks [`Deadline::is_past`] between its steps, and leaves what it has. Without a moment
-//! and without a request nothing is ever cut, and results depend on no clock.
+//! Long computations ask [`Deadline::is_past`] between their steps, and return what they have.
+//! Without a moment or a request nothing is cut, and results depend on no clock.
 
 use std::sync::Arc;
 use std::sync::atomic::{AtomicUsize, Ordering};
@@ -12,66 +12,69 @@ use std::time::{Duration, Instant};
 pub struct Stop(Arc<AtomicUsize>);
 
 impl Stop {
-    /// Asks once more; gives how often that has been done.
+    /// Requests a stop, and returns how many requests there are now.
     pub fn request(&self) -> usize {
         self.0.fetch_add(1, Ordering::Relaxed) + 1
     }
 
-    /// How often a stop was asked for.
+    /// Returns the number of requests so far.
     pub fn requests(&self) -> usize {
         self.0.load(Ordering::Relaxed)
     }
 }
 
-/// The earlier of a moment and a request to stop, if there is either.
+/// The earlier of a moment and a request to stop, if either is set.
 #[derive(Clone, Debug, Default)]
 pub struct Deadline {
     moment: Option<Instant>,
-    /// More requests than were made before.
+    /// A counter, and its value when this was made: only later requests count.
     stop: Option<(Stop, usize)>,
     pause: Option<Instant>,
 }
 
 impl Deadline {
-    /// Nothing is cut.
+    /// Never past.
     pub const NEVER: Deadline = Deadline { moment: None, stop: None, pause: None };
 
+    /// Ends at `moment`.
     pub fn at(moment: Instant) -> Deadline {
         Deadline { moment: Some(moment), ..Deadline::NEVER }
     }
 
-    /// This, or the next request from now on.
+    /// Also ends with the next request from now on.
     pub fn or_request(self, stop: &Stop) -> Deadline {
         Deadline { stop: Some((stop.clone(), stop.requests())), ..self }
     }
 
-    /// This, or so long from now.
+    /// Also ends `time` from now.
     pub fn within(&self, time: Duration) -> Deadline {
         self.no_later_than(Instant::now() + time)
     }
 
-    /// This, or a moment.
+    /// Also ends at `moment`.
     pub fn no_later_than(&self, moment: Instant) -> Deadline {
         Deadline { moment: Some(self.moment.map_or(moment, |own| own.min(moment))), ..self.clone() }
     }
 
-    /// This, and a pause so long from now: what can be gone on with stops then, as it does when asked to.
+    /// Also pauses `time` from now: work that can be continued later stops then, as on a request.
     pub fn pausing_in(&self, time: Duration) -> Deadline {
         let pause = Instant::now() + time;
         Deadline { pause: Some(self.pause.map_or(pause, |own| own.min(pause))), ..self.clone() }
     }
 
-    /// Its moment alone, for what cannot be gone on with: pauses and requests do not cut it.
+    /// Returns the moment alone, for work that cannot be continued later: pauses and requests do
+    /// not cut it.
     pub fn moment_alone(&self) -> Deadline {
         Deadline { moment: self.moment, ..Deadline::NEVER }
     }
 
+    /// Returns true once the moment, the pause or a new request has come.
     pub fn is_past(&self) -> bool {
         self.stop.as_ref().is_some_and(|(stop, known)| stop.requests() > *known)
             || [self.moment, self.pause].iter().flatten().any(|moment| Instant::now() >= *moment)
     }
 
-    /// The time that is left, none where there is no moment.
+    /// Returns the time left until the moment, if there is one.
     pub fn left(&self) -> Option<Duration> {
         self.moment.map(|moment| moment.saturating_duration_since(Instant::now()))
     }
@@ -92,7 +95,7 @@ mod tests {
         assert!(!later.is_past() && later.left().is_some_and(|left| left <= hour));
         stop.request();
         assert!(later.is_past() && !later.moment_alone().is_past());
-        // Requests that were made before count no more.
+        // Earlier requests no longer count.
         let next = Deadline::NEVER.or_request(&stop);
         assert!(!next.is_past() && next.left().is_none());
         stop.request();

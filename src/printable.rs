@@ -1,10 +1,11 @@
-//! Text from elsewhere, made harmless for whoever reads it: nothing in it moves a terminal's cursor,
-//! ends a line, or turns the direction of what stands beside it.
+//! Makes text from elsewhere harmless: nothing in it moves a terminal's cursor, ends a line, or
+//! turns the direction of the text beside it.
 
 use std::borrow::Cow;
 
-/// Whether a character acts on the text around it and is not seen itself: control characters, line and
-/// paragraph separators, marks and overrides of direction, invisible operators, tags.
+/// Returns true for a character that acts on the text around it and is not seen itself: control
+/// characters, line and paragraph separators, marks and overrides of direction, invisible
+/// operators, tags.
 pub fn is_hidden(character: char) -> bool {
     character.is_control()
         || matches!(
@@ -25,7 +26,7 @@ pub fn is_hidden(character: char) -> bool {
         )
 }
 
-/// The text as one line in which every hidden character is written out.
+/// Returns the text as one line, its hidden characters escaped.
 ///
 /// ```
 /// use lgp::printable::printable;
@@ -36,7 +37,7 @@ pub fn printable(text: &str) -> Cow<'_, str> {
     escaped(text, is_hidden, |c| c.escape_default().to_string())
 }
 
-/// The same of a text of several lines: line ends and tabs stay.
+/// Escapes the hidden characters of a text of several lines, except line ends and tabs.
 ///
 /// ```
 /// assert_eq!(lgp::printable::printable_lines("a\tb\n\u{7}"), "a\tb\n\\u{7}");
@@ -46,8 +47,7 @@ pub fn printable_lines(text: &str) -> Cow<'_, str> {
     escaped(text, hidden, |c| c.escape_default().to_string())
 }
 
-/// JSON that says the same, its hidden characters written as JSON does: those that may stand in a string
-/// as they are.
+/// Escapes the hidden characters in JSON's strings as JSON does; the JSON means the same.
 ///
 /// ```
 /// assert_eq!(lgp::printable::printable_json("[\n\"\u{202e}\"]"), "[\n\"\\u202e\"]");

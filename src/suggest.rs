@@ -1,9 +1,9 @@
-//! "Did you mean": the known name nearest to an unknown one.
+//! "Did you mean": finds the known name nearest to an unknown one.
 
-/// The candidate that a misspelt name was probably meant to be, if any is near: by edit distance
-/// (insertions, deletions, substitutions and swaps of neighbours, ignoring case) up to a third
-/// of the longer name, or else one that `name` abbreviates (`nv` for `n_dot_v`). Ties go to the
-/// first. Long names, and candidates after the first ten thousand, are not compared.
+/// Returns the candidate that a misspelt name was probably meant to be, if any is near: by edit
+/// distance (insertions, deletions, substitutions and swaps of neighbours, ignoring case) up to a
+/// third of the longer name, or else one that `name` abbreviates (`nv` for `n_dot_v`). Ties go to
+/// the first. Names over 100 bytes, and candidates after the first ten thousand, are not compared.
 ///
 /// ```
 /// use lgp::suggest::nearest;
@@ -37,8 +37,9 @@ pub fn nearest<'a>(name: &str, candidates: impl IntoIterator<Item = &'a str>) ->
     best.map(|(_, candidate)| candidate).or(abbreviated)
 }
 
-/// What is compared takes time by the product of the lengths.
+/// A comparison takes time by the product of the lengths: longer names would be slow.
 const LONGEST: usize = 100;
+/// By hand: a file may hold any number of names.
 const MOST: usize = 10_000;
 
 fn abbreviates(short: &str, long: &str) -> bool {
@@ -48,7 +49,7 @@ fn abbreviates(short: &str, long: &str) -> bool {
         && short.chars().all(|c| rest.any(|d| d == c))
 }
 
-/// `"; did you mean `x`?"`, or nothing.
+/// Returns ``"; did you mean `x`?"``, or an empty string.
 pub fn did_you_mean<'a>(name: &str, candidates: impl IntoIterator<Item = &'a str>) -> String {
     nearest(name, candidates).map_or_else(String::new, |n| format!("; did you mean `{n}`?"))
 }

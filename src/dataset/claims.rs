@@ -1,17 +1,17 @@
-//! What is claimed of a dataset's outputs.
+//! Claims of a dataset's outputs.
 
 use super::{Dataset, Error, check_text};
 use crate::program::{Claim, Names};
 use std::path::Path;
 
-/// Claims of a dataset.
+/// The most claims of a dataset. By hand: each is proved for each member of a front.
 const MOST: usize = 64;
 
 impl Dataset {
-    /// Claims something more of its outputs, [`Claim::parse`] saying how, in place of what has the same name.
+    /// Adds a claim, as [`Claim::parse`] describes it, in place of one of the same name.
     ///
     /// # Errors
-    /// [`Error::Claim`].
+    /// [`Error::Claim`] if the text is not a claim over the dataset's columns.
     pub fn claim(&mut self, text: &str) -> Result<(), Error> {
         let names = self.names();
         Claim::add(&mut self.claims, text, &names)
@@ -19,19 +19,20 @@ impl Dataset {
     }
 }
 
-/// The texts among those of claims that are over these columns.
+/// Selects the claims that are over these columns.
 pub(crate) fn claims_over(claims: &[String], names: &Names) -> Vec<String> {
     claims.iter().filter(|text| Claim::parse(text, names).is_ok()).cloned().collect()
 }
 
-/// Checks that claims are over columns, and each called otherwise.
+/// Checks that there are not too many claims, that they are over the columns, and that their names
+/// differ.
 ///
 /// # Errors
-/// The first violation found, at `path`.
+/// [`Error::Claim`]: the first violation, at `path`.
 pub fn check_claims(path: &Path, claims: &[String], names: &Names) -> Result<(), Error> {
     let refused = |problem: String| Error::Claim { path: path.into(), problem };
     if claims.len() > MOST {
-        return Err(refused(format!("{} claims are more than {MOST}", claims.len())));
+        return Err(refused(format!("{} claims; at most {MOST} are allowed", claims.len())));
     }
     for (i, text) in claims.iter().enumerate() {
         check_text(text).map_err(|fault| refused(format!("the claim {text:?}: {fault}")))?;

@@ -1,3 +1,5 @@
+//! Imports tables of comma-separated numbers.
+
 use super::select::unknown_column;
 use super::{
     Column, Dataset, Error, LARGEST_FILE, Origin, Split, check_identifier, domain_of, read_file,
@@ -8,56 +10,59 @@ use std::path::Path;
 /// The column that holds weights, unless it is named as an input.
 const WEIGHT: &str = "weight";
 
-/// What the name of a column of standard errors ends in.
+/// The suffix of the name of a column of standard errors.
 const STANDARD_ERROR: &str = "_se";
 
-/// Tables with fewer rows are validated on the rows they are searched on.
+/// Tables with fewer rows are validated on the rows they are searched on. By hand: a validation
+/// split of fewer than four rows says little.
 const MIN_ROWS_TO_SPLIT: usize = 16;
 
-/// Which columns of a table are inputs; the rest are outputs, in file order.
+/// The columns of a table that are inputs; the rest are outputs, in file order.
 #[derive(Clone, Debug, PartialEq)]
 pub enum InputColumns {
-    /// The first so many, not counting a column of weights.
+    /// The first columns, as many as this, not counting a column of weights.
     Count(usize),
-    /// These, in this order.
+    /// The columns of these names, in this order.
     Names(Vec<String>),
 }
 
 /// A table of numbers as its file has it, column-major.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Table {
+    /// The columns' names.
     pub names: Vec<String>,
+    /// The columns, each of as many values as there are rows.
     pub columns: Vec<Vec<f32>>,
-    /// Where each row is in the file.
+    /// The line of each row in the file.
     pub lines: Vec<usize>,
 }
 
 impl Table {
-    /// Reads a table as [`import_csv`] does: at least one row.
+    /// Reads a table as [`import_csv`] does; it has at least one row.
     ///
     /// # Errors
-    /// Those of [`import_csv`] that are of the file and its cells.
+    /// Those of [`import_csv`] about the file and its cells.
     pub fn read(path: &Path) -> Result<Table, Error> {
         Table::parse(path, &read_text(path)?)
     }
 
-    /// Reads the text of a table; `path` is where it is from, for the error.
+    /// Parses the text of a table; errors name `path`.
     ///
     /// # Errors
-    /// Those of [`Table::read`] that are of the content.
+    /// Those of [`Table::read`] about the content.
     pub fn parse(path: &Path, text: &str) -> Result<Table, Error> {
         parse(path, text)
     }
 
-    /// What [`import_csv`] makes of a table.
+    /// Makes a dataset of a table, as [`import_csv`] does.
     ///
     /// # Errors
-    /// Those of [`import_csv`] that are of the columns.
+    /// Those of [`import_csv`] about the columns.
     pub fn dataset(self, path: &Path, inputs: &InputColumns) -> Result<Dataset, Error> {
         imported(path, self, inputs)
     }
 
-    /// The place of a column; `path` is the file's, for the error.
+    /// Returns the index of a column; errors name `path`.
     ///
     /// # Errors
     /// No column of this name, with a suggestion.
@@ -68,25 +73,21 @@ impl Table {
     }
 }
 
-/// Imports a table: comma-separated numbers in UTF-8 under one line of column
-/// names, which must be identifiers. Blank lines, a byte-order mark, spaces
-/// and quotes around cells are ignored.
+/// Imports a table: comma-separated numbers in UTF-8 under one line of column names, which must be
+/// identifiers. Blank lines, a byte-order mark, and spaces and quotes around cells are ignored.
 ///
-/// A column called `weight` that is not among `inputs` holds the rows'
-/// weights and is neither input nor output; nor is `y_se`, where `y` is an output: it holds the standard errors
-/// of `y`.
+/// A column `weight` that is not among `inputs` holds the rows' weights, and is neither input nor
+/// output; nor is `y_se` if `y` is an output: it holds the standard errors of `y`.
 ///
-/// One row of each four consecutive ones, at a position scattered so that it
-/// does not follow the axes of a grid, goes to the validation split. The first
-/// row at the minimum and at the maximum of each input stays in the search
-/// split, so that validation never extrapolates. With fewer than 16 rows both
-/// splits hold them all.
+/// One row of each four consecutive ones, at a position scattered so that it does not follow the
+/// axes of a grid, goes to the validation split. The first row at the minimum and at the maximum of
+/// each input stays in the search split, so that validation never extrapolates. With fewer than 16
+/// rows both splits hold them all.
 ///
 /// # Errors
-/// A file that cannot be read, is empty, or has no header or no rows; a name
-/// that is no identifier or occurs twice; a row of another length; a cell that
-/// is no finite number in the range of f32; an input that is not there;
-/// nothing left to be an output.
+/// A file that cannot be read, is empty, or has no header or no rows; a name that is not an
+/// identifier or occurs twice; a row of another length; a cell that is not a finite number in the
+/// range of f32; an unknown input; no column left as an output.
 pub fn import_csv(path: &Path, inputs: &InputColumns) -> Result<Dataset, Error> {
     imported(path, Table::read(path)?, inputs)
 }
@@ -226,7 +227,7 @@ fn take_weights(path: &Path, table: &mut Table, inputs: &InputColumns) -> Result
     }
 }
 
-/// Takes the columns that hold standard errors, each with the name of the column whose they are.
+/// Takes the columns of standard errors out of the table, each with the name of its output.
 fn take_standard_errors(
     path: &Path,
     table: &mut Table,
@@ -328,9 +329,8 @@ fn extremes(values: &[f32]) -> [usize; 2] {
     rows
 }
 
-/// Whether a row is the one of its block of four that goes to validation. The
-/// position comes from a hash of the block: every fourth row of a grid would
-/// be a few of its columns, whole.
+/// Returns true for the row of each block of four that goes to validation. Its position comes from
+/// a hash of the block: every fourth row of a grid would be a few whole columns of the grid.
 fn held_out(row: usize) -> bool {
     let block = (row / 4) as u64;
     // The output function of SplitMix64 (Steele, Lea, Flood 2014).

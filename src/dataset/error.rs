@@ -1,11 +1,13 @@
+//! The reasons why a dataset cannot be used.
+
 use super::{MAX_COLUMNS, MAX_ROWS, NameFault};
 use crate::printable::printable;
 use crate::program::shortest;
 use std::path::{Path, PathBuf};
 
-/// Why a dataset cannot be read, written or used. `path` is the file, or the
-/// dataset's name where there is none; `row` counts from 1 within its split,
-/// `line` from 1 within its file.
+/// The reason why a dataset cannot be read, written or used. `path` is the file, or the dataset's
+/// name where there is none; `row` counts from 1 within its split, `line` from 1 within its file.
+#[allow(missing_docs, reason = "each message names its fields")]
 #[derive(Debug, thiserror::Error)]
 pub enum Error {
     #[error("{path}: no such file; check the path (`lgp list` shows the targets that `lgp generate` can make)", path = path.display())]
@@ -29,13 +31,13 @@ pub enum Error {
     #[error("{path}: unusable header: {problem}; generate or import it again", path = path.display())]
     Header { path: PathBuf, problem: String },
 
-    #[error("{path}: a dataset cannot be called `{}`: {fault}; call its file otherwise and make it again", printable(name), path = path.display())]
+    #[error("{path}: a dataset cannot be called `{}`: {fault}; rename its file and make it again", printable(name), path = path.display())]
     Name { path: PathBuf, name: String, fault: NameFault },
-    #[error("{path}: {columns} columns are more than {MAX_COLUMNS}; leave some out", path = path.display())]
+    #[error("{path}: {columns} columns; at most {MAX_COLUMNS} are allowed; leave some out", path = path.display())]
     TooManyColumns { path: PathBuf, columns: usize },
-    #[error("{path}: the {split} split has {rows} rows, more than {MAX_ROWS}; take some of them", path = path.display())]
+    #[error("{path}: the {split} split has {rows} rows; at most {MAX_ROWS} are allowed; take some of them", path = path.display())]
     TooManyRows { path: PathBuf, split: &'static str, rows: usize },
-    #[error("{path}: the unit of column `{column}` is none: {fault}; write it as in `nm`", path = path.display())]
+    #[error("{path}: the unit of column `{column}` is unusable: {fault}; write one such as `nm`", path = path.display())]
     Unit { path: PathBuf, column: String, fault: NameFault },
     #[error("{path}: no input columns; name at least one", path = path.display())]
     NoInputs { path: PathBuf },
@@ -63,11 +65,11 @@ pub enum Error {
     NotFinite { path: PathBuf, split: &'static str, column: String, row: usize, value: f32 },
     #[error("{path}: the weight of row {row} of the {split} split is {value}; weights must be finite and not negative", path = path.display())]
     BadWeight { path: PathBuf, split: &'static str, row: usize, value: f32 },
-    #[error("{path}: {called}: row {row} of the {split} split is {value}; none may be negative", path = path.display())]
+    #[error("{path}: {called}: row {row} of the {split} split is {value}; it must not be negative", path = path.display())]
     Negative { path: PathBuf, split: &'static str, called: &'static str, row: usize, value: f32 },
     #[error("{path}: all weights of the {split} split are zero; give at least one row a positive weight", path = path.display())]
     ZeroWeights { path: PathBuf, split: &'static str },
-    #[error("{path}: a grid of {grid:?} points does not describe the {rows} rows of the {split} split; it needs one factor an input, with the rows as their product", path = path.display())]
+    #[error("{path}: a grid of {grid:?} points does not describe the {rows} rows of the {split} split; it needs one factor per input, and the rows as their product", path = path.display())]
     Grid { path: PathBuf, split: &'static str, grid: Vec<usize>, rows: usize },
 
     #[error("{path}: no column is called `{column}`{}; the columns are {available}", did_you_mean(suggestion), path = path.display())]
@@ -91,9 +93,9 @@ pub enum Error {
     CellNotFinite { path: PathBuf, line: usize, column: String, text: String },
     #[error("{path}, line {line}, column `{column}`: `{}` is too large for 32-bit floats (largest: 3.4e38); use a smaller unit", printable(text), path = path.display())]
     CellOverflow { path: PathBuf, line: usize, column: String, text: String },
-    #[error("{path}, line {line}, column `{column}`: {value} is negative; weights must not be (name the column among the inputs if it is none)", path = path.display())]
+    #[error("{path}, line {line}, column `{column}`: {value} is negative; weights must not be (if the column is not a weight, name it among the inputs)", path = path.display())]
     NegativeWeight { path: PathBuf, line: usize, column: String, value: f32 },
-    #[error("{path}, line {line}, column `{column}`: {value} is negative; standard errors must not be (name the column among the inputs if it holds none)", path = path.display())]
+    #[error("{path}, line {line}, column `{column}`: {value} is negative; standard errors must not be (if the column holds none, name it among the inputs)", path = path.display())]
     NegativeError { path: PathBuf, line: usize, column: String, value: f32 },
     #[error("{path}: {asked} input columns were asked for, but there are only {columns} columns and at least one must be left as an output; ask for fewer", path = path.display())]
     TooManyInputs { path: PathBuf, asked: usize, columns: usize },
@@ -103,7 +105,7 @@ pub enum Error {
 }
 
 impl Error {
-    /// A file that could not be read.
+    /// Wraps the error of a file that could not be read.
     pub(super) fn unread(path: &Path, source: std::io::Error) -> Error {
         match source.kind() {
             std::io::ErrorKind::NotFound => Error::Missing { path: path.into() },

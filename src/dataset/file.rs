@@ -1,24 +1,26 @@
+//! Writes files as a whole: a killed process leaves the old content or the new.
+
 use super::kind::check_replaceable;
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 use std::sync::OnceLock;
 use tempfile::TempPath;
 
-/// What the names of temporaries begin with.
+/// The prefix of temporaries' names.
 pub const TEMPORARY: &str = ".lgp-";
 
-/// Writes a file so that, whenever the process is killed, `path` holds either
-/// its old content or all of the new: to a temporary in the same folder, then
-/// renamed. A link at `path` is replaced itself; what it leads to stays as it is.
+/// Writes a file so that, whenever the process is killed, `path` holds either its old content or
+/// all of the new: to a temporary in the same folder, then renamed. A link at `path` is itself
+/// replaced; its destination stays.
 ///
 /// # Errors
-/// A folder, a device, a pipe or a socket at `path`, which is left alone; those of creating, writing
-/// and renaming the temporary.
+/// A folder, a device, a pipe or a socket at `path`, which is left alone; errors of creating,
+/// writing and renaming the temporary.
 pub fn replace_file(path: &Path, bytes: &[u8]) -> io::Result<()> {
     StagedFile::new(path, bytes)?.put_in_place()
 }
 
-/// A file that is written whole beside the place that it is for. Dropped, it is gone.
+/// A file written whole beside its destination. Dropping it removes it.
 #[derive(Debug)]
 pub struct StagedFile {
     temporary: TempPath,
@@ -29,7 +31,7 @@ impl StagedFile {
     /// Writes the content to a temporary in the folder of `path`.
     ///
     /// # Errors
-    /// What is at `path` is no file ([`check_replaceable`]); those of creating and writing the temporary.
+    /// Those of [`check_replaceable`], and of creating and writing the temporary.
     pub fn new(path: &Path, bytes: &[u8]) -> io::Result<StagedFile> {
         check_replaceable(path)?;
         let folder = match path.parent() {
@@ -49,12 +51,12 @@ impl StagedFile {
         Ok(StagedFile { temporary: file.into_temp_path(), path: path.to_owned() })
     }
 
-    /// Where it is to be.
+    /// Returns its destination.
     pub fn path(&self) -> &Path {
         &self.path
     }
 
-    /// Puts it in the place of what is there.
+    /// Renames it to its destination, replacing what is there.
     ///
     /// # Errors
     /// Those of renaming.
@@ -64,7 +66,7 @@ impl StagedFile {
     }
 }
 
-/// The error without the temporary's name, which tells nobody anything.
+/// Returns the error without the temporary's name, which would tell nobody anything.
 fn plain(error: io::Error) -> io::Error {
     let inner = error.get_ref().and_then(|error| error.source());
     let inner = inner.and_then(|error| error.downcast_ref::<io::Error>());
@@ -72,10 +74,10 @@ fn plain(error: io::Error) -> io::Error {
     code.map_or(error, io::Error::from_raw_os_error)
 }
 
-/// Removes a file, if there is one.
+/// Removes a file, if it exists.
 ///
 /// # Errors
-/// Those of removing one that is there.
+/// Those of removing a file that exists.
 pub fn remove_file(path: &Path) -> io::Result<()> {
     announce("remove", path);
     match std::fs::remove_file(path) {
@@ -84,13 +86,13 @@ pub fn remove_file(path: &Path) -> io::Result<()> {
     }
 }
 
-/// What is to be done to a file, and which.
+/// A function of an operation and the file that it is about to change.
 type Witness = fn(&'static str, &Path);
 
 static WITNESS: OnceLock<Witness> = OnceLock::new();
 
-/// Has a function called before each creation, writing, renaming and removal of a file: tests end the
-/// process there, to see what is left. The first call counts.
+/// Sets a function to be called before each creation, writing, renaming and removal of a file:
+/// tests end the process there, to see what is left. Only the first call counts.
 #[doc(hidden)]
 pub fn witness_file_operations(witness: Witness) {
     let _ = WITNESS.set(witness);

@@ -1,7 +1,6 @@
-//! The `.bin` file: magic `LGPDATA1`, the header's length (u32, little-endian),
-//! the header in RON, the columns as little-endian f32 (search columns,
-//! weights, dead zones and standard errors, then the validation split's), and the 32-byte blake3 checksum
-//! of everything before it.
+//! The `.bin` file: magic `LGPDATA1`, the header's length (u32, little-endian), the header in RON,
+//! the columns as little-endian f32 (search columns, weights, dead zones and standard errors, then
+//! the validation split's), and the 32-byte blake3 checksum of everything before it.
 
 use super::{Column, Dataset, Error, LARGEST_FILE, Origin, Split, read_file, replace_file};
 use ron::extensions::Extensions;
@@ -17,7 +16,7 @@ const PREFIX: usize = MAGIC.len() + 4;
 struct Header {
     version: u32,
     name: String,
-    /// What version 1 has in place of an origin.
+    /// The origin in version 1.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     recipe: Option<String>,
     #[serde(default, skip_serializing_if = "Option::is_none")]
@@ -34,10 +33,10 @@ struct Header {
 struct SplitHeader {
     rows: u64,
     weighted: bool,
-    /// Whether each output has a column of its dead zone.
+    /// True if each output has a column of its dead zone.
     #[serde(alias = "free", default, skip_serializing_if = "std::ops::Not::not")]
     dead_zone: bool,
-    /// Whether each output has a column of standard errors.
+    /// True if each output has a column of standard errors.
     #[serde(default, skip_serializing_if = "std::ops::Not::not")]
     standard_errors: bool,
     grid: Vec<usize>,
@@ -60,18 +59,18 @@ impl Dataset {
     /// Reads a `.bin` file.
     ///
     /// # Errors
-    /// A file that is missing, empty, not a dataset, of another version,
-    /// beyond [`LARGEST_FILE`], truncated, too long, damaged, or whose content [`Dataset::validate`]
-    /// refuses. Nothing is allocated on the word of an unverified header.
+    /// A file that is missing, empty, not a dataset, of another version, larger than
+    /// [`LARGEST_FILE`], truncated, too long or damaged, or whose content [`Dataset::validate`]
+    /// refuses. No allocation trusts an unverified header.
     pub fn load(path: &Path) -> Result<Dataset, Error> {
         let bytes = read_file(path, LARGEST_FILE).map_err(|source| Error::unread(path, source))?;
         Dataset::parse(path, &bytes)
     }
 
-    /// Reads the bytes of a `.bin` file; `path` is where they are from, for the error.
+    /// Parses the bytes of a `.bin` file; errors name `path`.
     ///
     /// # Errors
-    /// Those of [`Dataset::load`] that are of the content.
+    /// Those of [`Dataset::load`] about the content.
     pub fn parse(path: &Path, bytes: &[u8]) -> Result<Dataset, Error> {
         let dataset = parse(path, bytes)?;
         dataset.validate_as(path)?;
@@ -81,8 +80,7 @@ impl Dataset {
     /// Writes a `.bin` file, replacing an old one as a whole.
     ///
     /// # Errors
-    /// A dataset that [`Dataset::validate`] refuses, or a file that cannot be
-    /// written.
+    /// A dataset that [`Dataset::validate`] refuses, or a file that cannot be written.
     pub fn save(&self, path: &Path) -> Result<(), Error> {
         let bytes = self.to_bytes(path)?;
         replace_file(path, &bytes).map_err(|source| Error::Io {
@@ -92,14 +90,14 @@ impl Dataset {
         })
     }
 
-    /// 16 hexadecimal digits, equal for equal names, columns and rows, wherever they are from
-    /// and whatever is claimed of them.
+    /// Returns 16 hexadecimal digits, equal for equal names, columns and rows, whatever their
+    /// origin and claims.
     pub fn hash(&self) -> String {
         self.hash_with(&self.header(0, None, None, &[]))
     }
 
-    /// Whether a record names this data by its hash; records of earlier versions have that of a file of
-    /// version 1.
+    /// Returns true if a record's hash is that of this data; earlier versions recorded the hash of
+    /// a file of version 1.
     pub fn has_hash(&self, hash: &str) -> bool {
         let version_1 = || self.header(1, Some(self.origin.to_string()), None, &[]);
         hash == self.hash() || hash == self.hash_with(&version_1())
@@ -109,7 +107,7 @@ impl Dataset {
         blake3::hash(&self.content(header)).to_hex().as_str()[..16].to_owned()
     }
 
-    /// The bytes of the `.bin` file; `path` is where they are to go, for the error.
+    /// Returns the bytes of the `.bin` file; errors name `path`.
     ///
     /// # Errors
     /// A dataset that [`Dataset::validate`] refuses.
@@ -200,7 +198,7 @@ fn parse(path: &Path, bytes: &[u8]) -> Result<Dataset, Error> {
 }
 
 fn read_header(path: &Path, bytes: &[u8], intact: bool) -> Result<(Header, Origin), Error> {
-    // A header that cannot be read in a damaged file is only a symptom.
+    // An unreadable header in a damaged file is only a symptom.
     let unusable = |problem: String| match intact {
         true => Error::Header { path: path.into(), problem },
         false => Error::Checksum { path: path.into() },
@@ -222,7 +220,7 @@ fn read_header(path: &Path, bytes: &[u8], intact: bool) -> Result<(Header, Origi
     Ok((header, origin))
 }
 
-/// How headers are written: what is optional as it is, or not at all.
+/// The notation of headers: an optional value is written as it is, or not at all.
 fn notation() -> ron::Options {
     ron::Options::default().with_default_extension(Extensions::IMPLICIT_SOME)
 }

@@ -1,5 +1,4 @@
-//! Published formulas for a dataset, to be scored on the same axes as what a
-//! search finds.
+//! Incumbents: published formulas for a dataset, scored on the same axes as a front's members.
 
 use super::{Dataset, Error, LARGEST_TEXT, check_text, read_text};
 use crate::program::{Names, Program, parse, parse_open};
@@ -10,33 +9,35 @@ use std::path::{Path, PathBuf};
 #[derive(Clone, Debug, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Incumbent {
+    /// The name in tables and plots, unique in its file.
     pub name: String,
-    /// Citation: author, title, where, year.
+    /// The citation: author, title, venue, year.
     pub source: String,
     /// Formula text over the dataset's columns.
     pub formula: String,
-    /// Joint cycles of all its outputs as the publication's form counts them,
-    /// if known.
+    /// The joint cycles of all its outputs in the published form, if known.
     #[serde(default)]
     pub cost: Option<f64>,
+    /// A remark; may be empty.
     #[serde(default)]
     pub note: String,
 }
 
-/// An incumbent read over a dataset's columns.
+/// An incumbent parsed over a dataset's columns.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ParsedIncumbent {
+    /// The incumbent as its file lists it.
     pub incumbent: Incumbent,
-    /// Over the dataset's inputs; one output for each of `outputs`.
+    /// The formula over the dataset's inputs, with one output for each of `outputs`.
     pub program: Program,
-    /// The outputs of the dataset that the formula defines, in the dataset's
-    /// order: those it can be scored on.
+    /// The outputs of the dataset that the formula defines, in the dataset's order: it is scored on
+    /// these.
     pub outputs: Vec<String>,
 }
 
 impl Incumbent {
-    /// This incumbent over a dataset's columns, or nothing if it uses other
-    /// inputs or defines none of the outputs.
+    /// Parses the formula over a dataset's columns; none if it uses other inputs or defines none of
+    /// the outputs.
     pub fn compared_on(&self, dataset: &Dataset) -> Option<ParsedIncumbent> {
         let inputs: Vec<&str> = dataset.inputs.iter().map(|column| column.name.as_str()).collect();
         let over = |outputs: &[String]| {
@@ -54,8 +55,8 @@ impl Incumbent {
 /// Reads a list of incumbents, in RON.
 ///
 /// # Errors
-/// A file that cannot be read, is no list of incumbents, names two alike, or
-/// holds a formula that is none.
+/// A file that cannot be read or is not a list of incumbents, two incumbents of one name, or a text
+/// that is not a formula.
 pub fn load_incumbents(path: &Path) -> Result<Vec<Incumbent>, Error> {
     let text = read_text(path, LARGEST_TEXT).map_err(|source| Error::unread(path, source))?;
     let refused = |line, problem| Error::Incumbents { path: path.into(), line, problem };
@@ -77,16 +78,15 @@ pub fn load_incumbents(path: &Path) -> Result<Vec<Incumbent>, Error> {
     Ok(incumbents)
 }
 
-/// The line on which a quoted name occurs, after so many occurrences.
+/// Returns the line on which a quoted name occurs, after `skipped` occurrences.
 fn line_naming(text: &str, name: &str, skipped: usize) -> usize {
     let quoted = format!("{name:?}");
     let mut lines = (1..).zip(text.lines()).filter(|(_, line)| line.contains(&quoted));
     lines.nth(skipped).map_or(1, |(line, _)| line)
 }
 
-/// The file that lists a dataset's incumbents, if there is one:
-/// `incumbents/<target>.ron` beside the dataset's file, after the target that
-/// it is of, or else after its name.
+/// Returns the file that lists a dataset's incumbents, if there is one: `incumbents/<target>.ron`
+/// beside the dataset's file, after the target of its rows, or else after its name.
 pub fn incumbents_file(dataset_path: &Path, dataset: &Dataset) -> Option<PathBuf> {
     let folder = dataset_path.parent()?.join("incumbents");
     let names = [dataset.origin.target(), Some(dataset.name.clone())];
@@ -94,8 +94,8 @@ pub fn incumbents_file(dataset_path: &Path, dataset: &Dataset) -> Option<PathBuf
     files.into_iter().find(|file| file.is_file())
 }
 
-/// The incumbents of a dataset that are comparable on its columns: those of
-/// [`incumbents_file`], none if there is no such file.
+/// Returns the incumbents that are comparable on a dataset's columns: those of [`incumbents_file`],
+/// none if there is no such file.
 ///
 /// # Errors
 /// Those of [`load_incumbents`].

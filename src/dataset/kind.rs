@@ -1,10 +1,10 @@
-//! What is no file is neither read nor replaced, and files are read up to a limit.
+//! Reads files up to a limit; folders, devices, pipes and sockets are neither read nor replaced.
 
 use std::fs::{File, FileType};
 use std::io::{self, ErrorKind, Read};
 use std::path::Path;
 
-/// Whether a file may take the place of what is at `path`: nothing, a file, or a link.
+/// Checks that a file may be put at `path`: there is nothing, a file, or a link.
 ///
 /// # Errors
 /// A folder (or a link to one), a device, a pipe or a socket.
@@ -21,11 +21,11 @@ pub fn check_replaceable(path: &Path) -> io::Result<()> {
     }
 }
 
-/// Reads a file of at most so many bytes.
+/// Reads a file of at most `most` bytes.
 ///
 /// # Errors
-/// What is no file: a folder, a device, a pipe, a socket, none of which is opened; a file that is longer;
-/// those of opening and reading.
+/// A folder, a device, a pipe or a socket, none of which is opened; a longer file; errors of
+/// opening and reading.
 pub fn read_file(path: &Path, most: u64) -> io::Result<Vec<u8>> {
     let there = path.metadata()?;
     if !there.is_file() {
@@ -41,10 +41,10 @@ pub fn read_file(path: &Path, most: u64) -> io::Result<Vec<u8>> {
     if bytes.len() as u64 > most { Err(too_long(most)) } else { Ok(bytes) }
 }
 
-/// The same of a text in UTF-8.
+/// Reads a text in UTF-8 of at most `most` bytes.
 ///
 /// # Errors
-/// Those of [`read_file`]; bytes that are no UTF-8.
+/// Those of [`read_file`]; bytes that are not UTF-8.
 pub fn read_text(path: &Path, most: u64) -> io::Result<String> {
     String::from_utf8(read_file(path, most)?).map_err(|error| {
         let before = &error.as_bytes()[..error.utf8_error().valid_up_to()];

@@ -1,9 +1,18 @@
-//! Tables of samples: what a search is fitted to and judged on.
+//! Tables of samples that a search is fitted to and judged on.
 //!
-//! A [`Dataset`] names its input and output columns and holds two disjoint
-//! sets of rows, the search split and the validation split. It is stored in a
-//! checksummed binary file (`.bin`, see [`Dataset::save`]) and can be made
-//! from a CSV table ([`import_csv`]).
+//! A [`Dataset`] names its input and output columns and holds two disjoint sets of rows, the search
+//! split and the validation split. It is made from a function ([`Dataset::sampled`]) or a CSV table
+//! ([`import_csv`]), and stored in a checksummed binary file (`.bin`, see [`Dataset::save`]).
+//!
+//! ```
+//! use lgp::dataset::{Dataset, axis};
+//!
+//! let data = Dataset::sampled([axis("x", 0.0..=2.0)], ["y"], |[x]| [x.sin()])?;
+//! assert_eq!(data.search.rows(), 256);
+//! let bytes = data.to_bytes("sine.bin".as_ref())?;
+//! assert_eq!(Dataset::parse("sine.bin".as_ref(), &bytes)?, data);
+//! # Ok::<(), lgp::dataset::Error>(())
+//! ```
 
 mod claims;
 mod csv;
@@ -40,47 +49,47 @@ use std::path::{Path, PathBuf};
 /// One column of a dataset.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Column {
-    /// An identifier, `[A-Za-z_][A-Za-z0-9_]*`. It may be called like an
-    /// operation or a keyword of some language.
+    /// An identifier, `[A-Za-z_][A-Za-z0-9_]*`. It may also be the name of an operation, or a
+    /// keyword of some language.
     pub name: String,
-    /// `""` or `"1"` for dimensionless.
+    /// The unit; `""` or `"1"` if dimensionless.
     pub unit: String,
-    /// Smallest and largest value that is meaningful (for an output: that occurs).
+    /// The smallest and largest meaningful value; for an output, the range of its values.
     pub domain: [f64; 2],
 }
 
 impl Column {
-    /// A dimensionless column.
+    /// Makes a dimensionless column.
     pub fn new(name: &str, domain: [f64; 2]) -> Column {
         Column { name: name.to_owned(), unit: "1".to_owned(), domain }
     }
 }
 
-/// Rows of samples, column-major: inputs first then outputs, each of
-/// [`rows`](Split::rows) values.
+/// Rows of samples, column-major.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Split {
+    /// The inputs, then the outputs, each of [`rows`](Split::rows) values.
     pub columns: Vec<Vec<f32>>,
-    /// One weight a row; empty means that all are one.
+    /// One weight per row; empty if all are one.
     pub weights: Vec<f32>,
-    /// By output, the error of each row that nobody sees ([`crate::scene::Quantisation`]); empty where
+    /// By output, the error of each row that nobody sees ([`crate::scene::Quantisation`]); empty if
     /// all errors count.
     pub dead_zone: Vec<Vec<f32>>,
-    /// By output, the standard error of each row's value, as a simulation or an instrument has it; empty where values
-    /// are exact to the rounding of `f32`. No formula wins by less.
+    /// By output, the standard error of each row's value, as a simulation or an instrument states
+    /// it; empty if values are exact to the rounding of `f32`. Smaller differences decide nothing.
     pub standard_errors: Vec<Vec<f32>>,
-    /// Points along each input axis, the first input varying slowest, if the
-    /// rows are a full regular grid; empty otherwise.
+    /// The points along each input axis, the first input varying slowest, if the rows are a full
+    /// regular grid; empty otherwise.
     pub grid: Vec<usize>,
 }
 
 impl Split {
-    /// Number of rows (the length of the first column).
+    /// Returns the number of rows: the length of the first column.
     pub fn rows(&self) -> usize {
         self.columns.first().map_or(0, Vec::len)
     }
 
-    /// Weight of a row: one where the split is unweighted.
+    /// Returns the weight of a row; one if the split is unweighted.
     pub fn weight(&self, row: usize) -> f32 {
         self.weights.get(row).copied().unwrap_or(1.0)
     }
@@ -89,31 +98,37 @@ impl Split {
 /// Named samples of a function, in two disjoint splits.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Dataset {
+    /// The name of its file and of runs on it ([`check_name`]).
     pub name: String,
+    /// The source of its rows.
     pub origin: Origin,
+    /// The input columns.
     pub inputs: Vec<Column>,
+    /// The output columns.
     pub outputs: Vec<Column>,
-    /// What formulas for it are asked ([`crate::program::Claim`]).
+    /// The claims of its outputs, as text ([`crate::program::Claim`]).
     pub claims: Vec<String>,
-    /// What a search is fitted to.
+    /// The rows that formulas are fitted to.
     pub search: Split,
-    /// What its results are judged on.
+    /// The rows that a front is judged on.
     pub validation: Split,
 }
 
 impl Dataset {
-    /// Checks what every consumer relies on: a name that names a file ([`check_name`]); at least one
-    /// input, one output and one row a split, at most [`MAX_COLUMNS`] and [`MAX_ROWS`]; names of columns
-    /// that are unique identifiers, units of one line; claims over them ([`check_claims`]); ordered domains within f32; columns of equal length holding finite values; weights finite,
-    /// not negative, and not all zero; a grid that multiplies to the rows.
+    /// Checks all that other modules rely on: a name that can name a file ([`check_name`]); at
+    /// least one input, one output and one row in each split, at most [`MAX_COLUMNS`] and
+    /// [`MAX_ROWS`]; unique identifiers as columns' names, units of one line; claims over them
+    /// ([`check_claims`]); ordered domains within f32; columns of equal length holding finite
+    /// values; weights that are finite, not negative, and not all zero; a grid that multiplies to
+    /// the rows.
     ///
     /// # Errors
-    /// The first violation found. Its `path` is the dataset's name.
+    /// The first violation. Its `path` is the dataset's name.
     pub fn validate(&self) -> Result<(), Error> {
         self.validate_as(Path::new(&self.name))
     }
 
-    /// The same, for the file at `path`.
+    /// [`Dataset::validate`], for the file at `path`.
     fn validate_as(&self, path: &Path) -> Result<(), Error> {
         check_name(&self.name).map_err(|fault| Error::Name {
             path: path.into(),
@@ -136,7 +151,7 @@ impl Dataset {
         PathBuf::from(&self.name)
     }
 
-    /// The columns' names.
+    /// Returns the columns' names.
     pub fn names(&self) -> Names {
         let [inputs, outputs] = [&self.inputs, &self.outputs]
             .map(|columns| columns.iter().map(|column| column.name.clone()));
@@ -147,7 +162,7 @@ impl Dataset {
         self.inputs.iter().chain(&self.outputs)
     }
 
-    /// Columns beside the outputs, one for each or none.
+    /// Validates the columns beside the outputs, one for each or none.
     fn validate_beside(
         &self,
         path: &Path,
@@ -212,20 +227,20 @@ impl Dataset {
     }
 }
 
-/// Columns of a dataset: formulas index them by 16 bits, and scenes add values to them.
+/// The most columns of a dataset. Formulas index them by 16 bits, and scenes add values to them.
 pub const MAX_COLUMNS: usize = 4096;
-/// Bytes of a file that datasets and tables are read from.
+/// The most bytes of a file of a dataset or table. By hand: it is read into memory.
 pub const LARGEST_FILE: u64 = 1 << 30;
-/// Bytes of a file of settings, recipes or formulas.
+/// The most bytes of a file of settings, recipes or formulas. By hand.
 pub const LARGEST_TEXT: u64 = 1 << 24;
-/// Rows of a split.
+/// The most rows of a split: those of one column in the largest file.
 pub const MAX_ROWS: usize = 1 << 28;
 
-/// Checks that columns are not too many, names unique identifiers, units of one line, and domains within f32
-/// and ordered.
+/// Checks that there are not too many columns, that their names are unique identifiers, units of
+/// one line, and domains ordered and within f32.
 ///
 /// # Errors
-/// The first violation found, at `path`.
+/// The first violation, at `path`.
 pub fn check_columns<'a>(
     path: &Path,
     columns: impl Iterator<Item = &'a Column>,
@@ -324,7 +339,7 @@ fn check_identifier(path: &Path, line: Option<usize>, name: &str) -> Result<(), 
     })
 }
 
-/// The identifier nearest to a name that is none: `n·v (1)` becomes `n_v_1`.
+/// Makes an identifier of a name that is not one: `n·v (1)` becomes `n_v_1`.
 fn repaired(name: &str) -> String {
     let words: Vec<&str> =
         name.split(|c: char| !c.is_ascii_alphanumeric()).filter(|word| !word.is_empty()).collect();
@@ -337,7 +352,7 @@ fn repaired(name: &str) -> String {
     }
 }
 
-/// Smallest and largest of finite values; `[0, 0]` of none.
+/// Returns the smallest and largest of finite values, or `[0, 0]` if there are none.
 fn range(values: impl IntoIterator<Item = f32>) -> [f64; 2] {
     let [low, high] = values
         .into_iter()
@@ -346,7 +361,7 @@ fn range(values: impl IntoIterator<Item = f32>) -> [f64; 2] {
     if low <= high { [low, high] } else { [0.0, 0.0] }
 }
 
-/// Domain of column `index`: the range of its values in both splits.
+/// Returns the domain of column `index`: the range of its values in both splits.
 pub(crate) fn domain_of(search: &Split, validation: &Split, index: usize) -> [f64; 2] {
     let column = |split: &Split| split.columns.get(index).cloned().unwrap_or_default();
     range(column(search).into_iter().chain(column(validation)))

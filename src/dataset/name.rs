@@ -1,16 +1,17 @@
-//! What a dataset, a column's unit or a published formula may be called. Names become folders, titles,
-//! comments and rows of tables: what would be something else there is none.
+//! Checks the names of datasets, columns' units and published formulas. Names become folders,
+//! titles, comments and rows of tables, and must be harmless in all of them.
 
 use crate::printable::is_hidden;
 
-/// Bytes.
+/// The most bytes of a name. File systems allow 255; extensions need some.
 pub const LONGEST_NAME: usize = 200;
 
-/// Files that some system does not let be, whatever their extension.
+/// Names of devices on some system, whatever their extension.
 const DEVICES: &str = "con prn aux nul com0 com1 com2 com3 com4 com5 com6 com7 com8 com9 lpt0 lpt1 lpt2 \
     lpt3 lpt4 lpt5 lpt6 lpt7 lpt8 lpt9";
 
-/// Why a name is none.
+/// The reason why a text cannot be a name.
+#[allow(missing_docs, reason = "the messages say it")]
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum NameFault {
     #[error("it is empty")]
@@ -21,15 +22,15 @@ pub enum NameFault {
     Hidden,
     #[error("it is a path, and must be a name within a folder")]
     Path,
-    #[error("some systems keep it for a device")]
+    #[error("some systems reserve it for a device")]
     Device,
 }
 
-/// Whether a dataset, a run or a scene may be called that: text of one line that names a file within a
+/// Checks that a text can name a dataset, a run or a scene: one line that names a file within a
 /// folder on every system.
 ///
 /// # Errors
-/// What is wrong with it.
+/// [`NameFault`]: what is wrong with it.
 pub fn check_name(name: &str) -> Result<(), NameFault> {
     check_text(name)?;
     let stem = name.split('.').next().unwrap_or_default().trim_end().to_ascii_lowercase();
@@ -42,10 +43,10 @@ pub fn check_name(name: &str) -> Result<(), NameFault> {
     }
 }
 
-/// Whether text may stand for a unit, or for the name of something that is no file.
+/// Checks that a text can be a unit, or the name of something that is not a file.
 ///
 /// # Errors
-/// What is wrong with it.
+/// [`NameFault`]: what is wrong with it.
 pub fn check_text(text: &str) -> Result<(), NameFault> {
     match text {
         _ if text.len() > LONGEST_NAME => Err(NameFault::Long),

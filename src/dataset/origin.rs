@@ -1,22 +1,46 @@
-//! Where a dataset's rows come from.
+//! The source of a dataset's rows.
 
 use serde::{Deserialize, Serialize};
 use std::fmt;
 
-/// Where a dataset's rows come from, and what was done to them since. As text it is what
-/// `lgp info` shows.
+/// The source of a dataset's rows, and what was done to them since. `lgp info` shows it as text.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub enum Origin {
-    /// A target's generator: its recipe in RON, and the error that it measured.
-    Target { recipe: String, error: String },
+    /// A target's generator.
+    Target {
+        /// In RON.
+        recipe: String,
+        /// The error that the generator measured, in words.
+        error: String,
+    },
     /// A table.
-    Import { file: String },
-    /// A function, by its formula or in words.
-    Formula { text: String },
-    /// What a scene left of other rows.
-    View { of: Box<Origin>, scene: String },
-    /// The `kept` of so many rows that pruning flat regions left.
-    Pruned { of: Box<Origin>, share: f64, kept: usize, rows: usize },
+    Import {
+        /// The file's name, without its folder.
+        file: String,
+    },
+    /// A function.
+    Formula {
+        /// Its formula, or a description.
+        text: String,
+    },
+    /// The rows that a scene left of others.
+    View {
+        /// The source of those.
+        of: Box<Origin>,
+        /// The scene's name.
+        scene: String,
+    },
+    /// The rows that pruning of flat regions left.
+    Pruned {
+        /// The source of all rows.
+        of: Box<Origin>,
+        /// The share of an output's range that counted as flat.
+        share: f64,
+        /// The number of rows left.
+        kept: usize,
+        /// The number of rows before.
+        rows: usize,
+    },
 }
 
 impl Default for Origin {
@@ -26,7 +50,7 @@ impl Default for Origin {
 }
 
 impl Origin {
-    /// The name of the target that the rows are of, in the end.
+    /// Returns the name of the target whose rows they are, in the end.
     pub fn target(&self) -> Option<String> {
         #[derive(Deserialize)]
         struct TargetOnly {
@@ -43,7 +67,7 @@ impl Origin {
         }
     }
 
-    /// What a generator measured, and what pruning left.
+    /// Returns the error that a generator measured, and the shares that pruning left.
     pub fn notes(&self) -> Vec<String> {
         match self {
             Origin::Target { error, .. } => vec![error.clone()],
@@ -55,7 +79,7 @@ impl Origin {
         }
     }
 
-    /// The same without [`Origin::notes`]: of a target its recipe.
+    /// Returns the text without [`Origin::notes`]: a target's recipe, for example.
     pub fn source(&self) -> String {
         match self {
             Origin::Target { recipe, .. } => recipe.clone(),
@@ -66,7 +90,7 @@ impl Origin {
         }
     }
 
-    /// What a file of version 1 says in one text.
+    /// Parses the one text of a file of version 1.
     pub(super) fn of_text(text: &str) -> Origin {
         let origin = Origin::taken_apart(text);
         let kept = origin.as_ref().is_some_and(|origin| origin.to_string() == text);

@@ -1,22 +1,19 @@
-//! Fewer rows where a function is flat (Pesce and Iwanicki, "Approximate
-//! Models for Physically Based Rendering", 2015, §5.2): rows are culled in
-//! areas of less variation, and those that stay weigh for those that went.
+//! Prunes rows where a function is flat (Pesce and Iwanicki, "Approximate Models for Physically
+//! Based Rendering", 2015, §5.2): the rows that stay take over the weights of those removed.
 
 use super::{Dataset, Split};
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 
 impl Dataset {
-    /// Prunes the search split: boxes of the input space in which no output
-    /// varies by more than `share` of its range keep one row each, with the
-    /// weight of all of the box's. The row is drawn in proportion to the
-    /// weights, so that weighted sums over the rows, such as the squared error
+    /// Prunes the search split: boxes of the input space in which no output varies by more than
+    /// `share` of its range keep one row each, with the weight of all the box's. The row is drawn
+    /// in proportion to the weights, so that weighted sums over the rows, such as the squared error
     /// of any formula, keep their expectation. The validation split stays.
     ///
-    /// Boxes are halved at the median of the input with the widest spread
-    /// (relative to that of all rows) until they are flat or hold one row. The
-    /// same `seed` gives the same rows. `share` is at least 0; at 0 only rows
-    /// of equal outputs are pruned.
+    /// Boxes are halved at the median of the input with the widest spread (relative to that of all
+    /// rows) until they are flat or hold one row. The same `seed` gives the same rows. `share` is
+    /// at least 0; at 0 only rows of equal outputs are pruned.
     pub fn prune_flat_regions(&mut self, share: f64, seed: u64) {
         let spreads = self.search.columns.iter().map(|column| spread(column.iter().copied()));
         let spreads: Vec<f64> = spreads.collect();
@@ -42,13 +39,13 @@ impl Dataset {
 struct Pruning<'a> {
     split: &'a Split,
     inputs: usize,
-    /// Of each column over all rows.
+    /// The range of each column over all rows.
     spreads: Vec<f64>,
     share: f64,
 }
 
 impl Pruning<'_> {
-    /// Adds the rows that stay of a box, and their weights.
+    /// Adds the rows that a box keeps, and their weights.
     fn keep(&self, mut rows: Vec<usize>, rng: &mut ChaCha8Rng, kept: &mut Vec<(usize, f64)>) {
         let weight = |row: usize| f64::from(self.split.weight(row));
         let relative = |column: usize| {
@@ -58,7 +55,7 @@ impl Pruning<'_> {
         };
         let flat = (self.inputs..self.split.columns.len()).all(|c| relative(c) <= self.share);
         let widest = (0..self.inputs).max_by(|&a, &b| relative(a).total_cmp(&relative(b)));
-        // Rows that no input tells apart cannot be separated.
+        // Rows of equal inputs cannot be separated.
         let axis = widest.filter(|&axis| !flat && relative(axis) > 0.0);
         match axis {
             Some(axis) => {
@@ -82,7 +79,7 @@ impl Pruning<'_> {
     }
 }
 
-/// One of the rows, in proportion to its weight.
+/// Draws one of the rows, in proportion to its weight.
 fn drawn(rows: &[usize], weight: impl Fn(usize) -> f64, total: f64, rng: &mut ChaCha8Rng) -> usize {
     let mut left = rng.random::<f64>() * total;
     let chosen = rows.iter().copied().find(|&row| {

@@ -1,46 +1,51 @@
-//! Datasets of functions that are at hand.
+//! Makes datasets by sampling functions.
 
 use super::{Column, Dataset, Error, Origin, Split, domain_of};
 use std::borrow::Cow;
 use std::ops::RangeInclusive;
 
-/// Points along each axis of a search grid: about 4096 in all where there are several inputs.
+/// The points along each axis of a search grid, by the number of axes: about 4096 in all where
+/// there are several. By hand, unmeasured.
 const POINTS: [usize; 4] = [256, 64, 16, 8];
 
-/// An input of a function, and where it is sampled.
+/// An input of a function, and the places where it is sampled.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Axis {
+    /// An identifier.
     pub name: Cow<'static, str>,
-    /// `1` where it has none.
+    /// `1` if dimensionless.
     pub unit: Cow<'static, str>,
+    /// The low and the high end.
     pub domain: [f64; 2],
+    /// The scale on which samples are equidistant.
     pub spacing: Spacing,
-    /// In place of the domain's low end, where the function has no value.
+    /// A place to sample instead of the domain's low end, if the function has no value there.
     pub least: Option<f64>,
 }
 
-/// In what samples are equidistant.
+/// The scale on which samples are equidistant.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Spacing {
+    /// The value itself.
     Linear,
-    /// Of a domain above 0.
+    /// The logarithm, for a domain above 0.
     Logarithmic,
 }
 
-/// An input without a unit.
+/// Makes a dimensionless input.
 pub fn axis(name: &str, domain: RangeInclusive<f64>) -> Axis {
     let domain = [*domain.start(), *domain.end()];
     Axis { name: name.to_owned().into(), domain, ..Axis::unit("") }
 }
 
 impl Axis {
-    /// A dimensionless input on [0, 1].
+    /// Makes a dimensionless input on [0, 1].
     pub const fn unit(name: &'static str) -> Axis {
         let (name, unit) = (Cow::Borrowed(name), Cow::Borrowed("1"));
         Axis { name, unit, domain: [0.0, 1.0], spacing: Spacing::Linear, least: None }
     }
 
-    /// Where `u` of [0, 1] comes to lie.
+    /// Maps `u` from [0, 1] to the domain.
     pub fn at(&self, u: f64) -> f32 {
         let [low, high] = self.domain;
         let value = match self.spacing {
@@ -50,13 +55,13 @@ impl Axis {
         value as f32
     }
 
-    /// Centres of so many equal cells.
+    /// Returns the centres of equal cells.
     pub fn centres(&self, cells: usize) -> Vec<f32> {
         (0..cells).map(|i| self.at((i as f64 + 0.5) / cells as f64)).collect()
     }
 
-    /// Equidistant nodes from end to end; those of an odd number of intervals are no centres of an even number of
-    /// cells.
+    /// Returns equidistant nodes from end to end. Nodes of an odd number of intervals are never
+    /// centres of an even number of cells.
     pub fn nodes(&self, intervals: usize) -> Vec<f32> {
         let mut nodes: Vec<f32> =
             (0..=intervals).map(|k| self.at(k as f64 / intervals as f64)).collect();
@@ -66,16 +71,16 @@ impl Axis {
         nodes
     }
 
-    /// The column that it becomes.
+    /// Returns the column of its samples.
     pub fn column(&self) -> Column {
         Column { unit: self.unit.clone().into(), ..Column::new(&self.name, self.domain) }
     }
 }
 
 impl Dataset {
-    /// A function of a few inputs, sampled on regular grids: at the centres of cells to search on, and to
-    /// validate on a denser grid with the domain's edges. (Along an axis: 256 cells, 64 of two axes, 16 of
-    /// three, 8 of more.)
+    /// Samples a function of a few inputs on regular grids: the search split at the centres of
+    /// cells, the validation split on a denser grid with the domain's edges. (Along an axis: 256
+    /// cells, 64 of two axes, 16 of three, 8 of more.)
     ///
     /// ```
     /// use lgp::dataset::{Dataset, axis};
@@ -87,7 +92,8 @@ impl Dataset {
     /// ```
     ///
     /// # Errors
-    /// [`Error`]: names that are no identifiers, domains without extent, values that are not finite.
+    /// [`Error`]: names that are not identifiers, domains without extent, values that are not
+    /// finite.
     pub fn sampled<const N: usize, const M: usize>(
         axes: [Axis; N],
         outputs: [&str; M],
@@ -110,8 +116,8 @@ impl Dataset {
         )
     }
 
-    /// Rows at hand, to search on and to validate on, under inputs and the outputs' names and units: the domain
-    /// of an output is what occurs.
+    /// Makes a dataset of a search and a validation split, under the inputs and the outputs' names
+    /// and units. An output's domain is the range of its values.
     ///
     /// # Errors
     /// As [`Dataset::validate`].
@@ -137,7 +143,8 @@ impl Dataset {
 }
 
 impl Split {
-    /// A function on every combination of places along each input, the last input varying fastest.
+    /// Evaluates a function at every combination of places along each input, the last input varying
+    /// fastest.
     pub fn on_grid<const M: usize>(
         along: &[Vec<f32>],
         function: impl Fn(&[f64]) -> [f64; M],
@@ -152,7 +159,7 @@ impl Split {
     }
 }
 
-/// Every combination of one value an axis, the last axis varying fastest.
+/// Returns every combination of one value per axis, the last axis varying fastest.
 pub(crate) fn combinations(along: &[Vec<f32>]) -> Vec<Vec<f32>> {
     along.iter().fold(vec![Vec::new()], |points, values| {
         let longer = |point: &Vec<f32>, value| [point.as_slice(), &[value]].concat();
@@ -160,7 +167,7 @@ pub(crate) fn combinations(along: &[Vec<f32>]) -> Vec<Vec<f32>> {
     })
 }
 
-/// What the rows of a grid weigh where those along each axis do: products.
+/// Returns the weights of a grid's rows: products of the weights along each axis.
 pub fn grid_weights(along: &[Vec<f64>]) -> Vec<f32> {
     let areas = along.iter().fold(vec![1.0], |areas: Vec<f64>, lengths| {
         areas.iter().flat_map(|area| lengths.iter().map(move |length| area * length)).collect()

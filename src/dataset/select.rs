@@ -1,16 +1,17 @@
+//! Views of some of a dataset's columns.
+
 use super::{Column, Dataset, Error, Split, claims_over};
 use crate::suggest::nearest;
 
 impl Dataset {
-    /// A view with only some inputs and outputs, in the order asked for. An
-    /// output column may be asked for as an input. Without `inputs`: all the
-    /// dataset's inputs, never its other outputs. Without `outputs`: all its
-    /// outputs but those asked for as inputs. The rows stay the same; a split
-    /// stays a grid only if the inputs do; of the claims stay those over the columns that do.
+    /// Selects some inputs and outputs, in the order asked for. An output column may be asked for
+    /// as an input. Without `inputs`: all the dataset's inputs, never its other outputs. Without
+    /// `outputs`: all its outputs except those asked for as inputs. The rows stay the same; a split
+    /// stays a grid only if the inputs do; claims stay if their columns do.
     ///
     /// # Errors
-    /// An unknown name (with a suggestion), a name given twice, a column that
-    /// is both input and output, or nothing left to be an input or output.
+    /// An unknown name (with a suggestion), a name given twice, a column that is both input and
+    /// output, or no column left as an input or output.
     pub fn select(
         &self,
         inputs: Option<&[String]>,
@@ -53,7 +54,7 @@ impl Dataset {
         Ok(selected)
     }
 
-    /// Some columns of a split, the first so many of them inputs.
+    /// Picks columns of a split, the first `inputs` of them inputs.
     fn pick(&self, split: &Split, indices: &[usize], inputs: usize, same_inputs: bool) -> Split {
         let column = |&index: &usize| split.columns.get(index).cloned();
         // Only outputs have columns beside them, and they stay outputs.

@@ -1,15 +1,16 @@
-//! The magnitudes of columns: what is sensible to call large or small there.
+//! The magnitudes of columns: the sizes that count as large or small there.
 
 use super::Column;
 
-/// Columns whose largest magnitude is within `[1 / NATURAL, NATURAL]` are searched in as they are: angles, exponents and
-/// cosines mean something in their own unit. All committed datasets are; 380 nm is not.
+/// Columns whose largest magnitude is within `[1 / NATURAL, NATURAL]` are searched as they are:
+/// angles, exponents and cosines mean something in their own unit. All committed datasets are
+/// within; 380 nm is not. By hand.
 const NATURAL: f64 = 16.0;
 
-/// The power of two that brings a column's largest magnitude into (1/2, 1]; one for columns of a natural
-/// magnitude, and for those that are zero throughout.
+/// Returns the power of two that brings a column's largest magnitude into (1/2, 1]; one for columns
+/// of a natural magnitude, and for those that are zero throughout.
 ///
-/// A power of two, so that nothing is rounded when values are divided by it.
+/// Dividing values by a power of two rounds nothing.
 pub fn unit(column: &Column) -> f64 {
     let [low, high] = column.domain;
     let largest = low.abs().max(high.abs());
@@ -19,13 +20,13 @@ pub fn unit(column: &Column) -> f64 {
     largest.log2().ceil().exp2()
 }
 
-/// [`unit()`] of each output.
+/// Returns the [`unit()`] of each output.
 pub fn output_units(outputs: &[Column]) -> Vec<f64> {
     outputs.iter().map(unit).collect()
 }
 
-/// The unit that errors over all outputs are in: that of the outputs where it is the same for all, else one,
-/// each output's errors being relative to its own.
+/// Returns the unit of errors over all outputs: the outputs' unit if it is the same for all, else
+/// one, each output's errors being relative to its own.
 pub fn joint_unit(units: &[f64]) -> f64 {
     let alike = units.windows(2).all(|pair| pair[0] == pair[1]);
     units.first().copied().filter(|_| alike).unwrap_or(1.0)

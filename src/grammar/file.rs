@@ -1,4 +1,4 @@
-//! Settings in `.ron` files, some of which come with the program: grammars, GPU profiles.
+//! Reads settings in `.ron` files, some of which come with the program: grammars, GPU profiles.
 
 use crate::dataset::{LARGEST_TEXT, read_text};
 use crate::op::Op;
@@ -9,7 +9,8 @@ use serde::de::DeserializeOwned;
 use std::borrow::Cow;
 use std::path::Path;
 
-/// A settings file that cannot be used; `kind` is what it should be.
+/// The reason why a settings file cannot be used; `kind` is what it should be.
+#[allow(missing_docs, reason = "each message names its fields")]
 #[derive(Debug, thiserror::Error)]
 pub enum FileError {
     #[error(
@@ -24,7 +25,7 @@ pub enum FileError {
     Content { kind: &'static str, path: String, reason: String },
 }
 
-/// The text of a file that is built in, by name, or that stands at a path.
+/// Returns the text of a built-in file, by name, or of the file at a path.
 pub(crate) fn find<'a>(
     kind: &'static str,
     name_or_path: &str,
@@ -50,7 +51,7 @@ pub(crate) fn find<'a>(
     })
 }
 
-/// The content of a file; `Some` may be left out.
+/// Parses a file's content; `Some` may be left out.
 pub(crate) fn parse<T: DeserializeOwned>(
     kind: &'static str,
     path: &str,
@@ -66,13 +67,13 @@ pub(crate) fn parse<T: DeserializeOwned>(
     })
 }
 
-/// A few digits that are equal for equal contents.
+/// Returns 16 hexadecimal digits that are equal for equal contents.
 pub(crate) fn fingerprint(content: &impl Serialize) -> String {
     let text = ron::to_string(content).expect("plain data");
     blake3::hash(text.as_bytes()).to_hex().as_str()[..16].to_owned()
 }
 
-/// The operation that a file names.
+/// Returns the operation of a name in a file.
 pub(crate) fn operation(name: &str) -> Result<Op, String> {
     Op::from_name(name).ok_or_else(|| {
         let hint = did_you_mean(name, Op::ALL.iter().map(|op| op.name()));

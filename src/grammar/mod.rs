@@ -1,4 +1,5 @@
-//! What a search may write: operations and how often each is tried, lengths, penalties.
+//! Grammars: the operations that a search may write and how often it tries each, lengths,
+//! penalties.
 
 pub(crate) mod file;
 
@@ -18,22 +19,26 @@ const BUILT_IN: [(&str, &str); 3] = [
     ("polynomial", include_str!("../../grammar/polynomial.ron")),
 ];
 
-/// The most instructions a grammar may allow.
+/// The most instructions that a grammar may allow. By hand.
 pub const MAX_INSTRUCTIONS: usize = 128;
 
-/// What a search may write. Serialised, it is its name and what its file says, and read back by the same
-/// rules.
+/// The programs that a search may write. Serialised as its name and its file's content, and read
+/// back by the same rules.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(into = "(String, File)", try_from = "(String, File)")]
 pub struct Grammar {
+    /// The built-in name, or the file's path.
     pub name: String,
+    /// A sentence about it; may be empty.
     pub description: String,
-    /// Operations and how often each is tried, relative to the others; not empty, all positive.
+    /// The operations, each with how often it is tried relative to the others; not empty, all
+    /// positive.
     pub operations: Vec<(Op, f64)>,
+    /// From 1 to [`MAX_INSTRUCTIONS`].
     pub max_instructions: usize,
-    /// Cycles that an operation is charged beyond what it costs, to discourage it.
+    /// Cycles that an operation is charged beyond its cost, to discourage it.
     pub penalties: Vec<(Op, f64)>,
-    /// How many of an operation may stand inside one another at most.
+    /// The deepest nesting of an operation inside itself.
     pub nesting: Vec<(Op, usize)>,
 }
 
@@ -51,17 +56,23 @@ struct File {
 }
 
 impl Grammar {
-    /// The built-in grammars' names.
+    /// Returns the built-in grammars' names.
     pub fn built_in() -> impl Iterator<Item = &'static str> {
         BUILT_IN.iter().map(|(name, _)| *name)
     }
 
-    /// A built-in grammar by name, or one from a `.ron` file.
+    /// Returns a built-in grammar by name, or reads one from a `.ron` file.
+    ///
+    /// # Errors
+    /// An unknown name; a file that cannot be read or is not a grammar.
     pub fn find(name_or_path: &str) -> Result<Grammar, FileError> {
         Grammar::parse(name_or_path, &file::find(KIND, name_or_path, &BUILT_IN)?)
     }
 
-    /// A built-in grammar by name; no file is opened.
+    /// Returns a built-in grammar by name, without opening a file.
+    ///
+    /// # Errors
+    /// A name that is not built in.
     pub fn find_built_in(name: &str) -> Result<Grammar, FileError> {
         match BUILT_IN.iter().find(|(known, _)| *known == name) {
             Some((_, text)) => Grammar::parse(name, text),
@@ -73,7 +84,10 @@ impl Grammar {
         }
     }
 
-    /// A grammar from the text of a `.ron` file called `name`.
+    /// Parses the text of a `.ron` file called `name`.
+    ///
+    /// # Errors
+    /// A text that is not a grammar.
     pub fn parse(name: &str, text: &str) -> Result<Grammar, FileError> {
         Grammar::of(name, file::parse(KIND, name, text)?)
     }
@@ -102,27 +116,27 @@ impl Grammar {
         })
     }
 
-    /// Whether it keeps the rules that its file would be held to.
+    /// Checks the rules that its file would have to keep.
     ///
     /// # Errors
-    /// The first that it breaks.
+    /// The first broken rule.
     pub fn check(&self) -> Result<(), FileError> {
         Grammar::try_from(<(String, File)>::from(self.clone())).map(|_| ())
     }
 
-    /// Whether formulas may be written with the operation.
+    /// Returns true if formulas may be written with the operation.
     pub fn has(&self, wanted: Op) -> bool {
         self.operations.iter().any(|(op, _)| *op == wanted)
     }
 
-    /// Equal for grammars that allow the same, whatever they are called.
+    /// Returns a hash of what is allowed, whatever the name.
     pub fn fingerprint(&self) -> String {
         let (_, file) = self.clone().into();
         file::fingerprint(&File { description: String::new(), ..file })
     }
 
-    /// Whether no operation stands inside its like more often than it may: `exp2(a + exp2(b))` has
-    /// two `exp2` inside one another.
+    /// Returns true if no operation is nested inside itself more deeply than allowed: `exp2(a +
+    /// exp2(b))` nests two `exp2`.
     pub fn allows_nesting(&self, draft: &Draft) -> bool {
         self.nesting.iter().all(|&(op, most)| {
             let mut depths: Vec<usize> = Vec::with_capacity(draft.instrs.len());
@@ -138,7 +152,7 @@ impl Grammar {
         })
     }
 
-    /// What the program's operations are charged beyond their cost.
+    /// Returns the cycles that the program's operations are charged beyond their cost.
     pub fn penalty(&self, draft: &Draft) -> f64 {
         let of = |op| self.penalties.iter().find(|(known, _)| *known == op).map_or(0.0, |p| p.1);
         draft.instrs.iter().map(|instr| of(instr.op())).sum()
@@ -170,7 +184,7 @@ impl TryFrom<(String, File)> for Grammar {
     }
 }
 
-/// Names to operations, in table order.
+/// Converts names to operations, in table order.
 fn named_operations(
     values: BTreeMap<String, f64>,
     valid: impl Fn(f64) -> bool,

@@ -1,9 +1,10 @@
-//! Intervals: bounds of what a computation can give in `f32`, in `f64`, or exactly.
+//! Bounds what a computation can give in `f32`, in `f64`, or exactly.
 //!
-//! Bounds are rounded outward to `f32`. Both zeros count as one number: whatever tells them apart
-//! (a quotient) is bounded for either. An infinite bound means that the value may be infinite.
+//! Bounds are rounded outward to `f32`. Both zeros count as one number: an operation that tells
+//! them apart (a quotient) is bounded for either. An infinite bound means that the value may be
+//! infinite.
 
-/// Every number between two bounds, which belong to it, and perhaps NaN.
+/// The numbers between two bounds, inclusive, and perhaps NaN.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Interval {
     low: f32,
@@ -20,6 +21,8 @@ impl Interval {
     pub const NAN: Interval =
         Interval { low: f32::INFINITY, high: f32::NEG_INFINITY, may_be_nan: true };
 
+    /// The numbers from `low` to `high`.
+    ///
     /// # Panics
     /// If `low` exceeds `high` or either is NaN.
     pub fn new(low: f32, high: f32) -> Interval {
@@ -27,28 +30,32 @@ impl Interval {
         Interval { low, high, may_be_nan: false }
     }
 
+    /// The lower bound; `f32::INFINITY` if there is no number.
     pub fn low(self) -> f32 {
         self.low
     }
 
+    /// The upper bound; `f32::NEG_INFINITY` if there is no number.
     pub fn high(self) -> f32 {
         self.high
     }
 
+    /// Returns true if NaN is a possible value.
     pub fn may_be_nan(self) -> bool {
         self.may_be_nan
     }
 
+    /// Returns true if a bound is infinite.
     pub fn may_be_infinite(self) -> bool {
         !self.is_empty() && (self.low == f32::NEG_INFINITY || self.high == f32::INFINITY)
     }
 
-    /// Whether it holds no number.
+    /// Returns true if it holds no number; it may hold NaN.
     pub fn is_empty(self) -> bool {
         self.low > self.high
     }
 
-    /// Whether a value, NaN too, is one of these.
+    /// Returns true if the value, NaN or a number, is in the interval.
     pub fn contains(self, value: f64) -> bool {
         if value.is_nan() {
             return self.may_be_nan;
@@ -56,13 +63,13 @@ impl Interval {
         f64::from(self.low) <= value && value <= f64::from(self.high)
     }
 
-    /// The same numbers; also NaN where `nan` holds.
+    /// Adds NaN if `nan` is true.
     #[must_use]
     pub fn or_nan_if(self, nan: bool) -> Interval {
         Interval { may_be_nan: self.may_be_nan || nan, ..self }
     }
 
-    /// The smallest interval that holds both.
+    /// Returns the smallest interval that holds both.
     #[must_use]
     pub fn hull(self, other: Interval) -> Interval {
         Interval {
@@ -72,7 +79,7 @@ impl Interval {
         }
     }
 
-    /// Of its numbers those of another interval; all of them if none is.
+    /// Intersects the numbers with another interval's; returns `self` if the intersection is empty.
     #[must_use]
     pub fn narrowed(self, other: Interval) -> Interval {
         let narrow =
@@ -80,7 +87,7 @@ impl Interval {
         if narrow.is_empty() { self } else { narrow }
     }
 
-    /// Of its numbers those within the bounds; NaN where there are others.
+    /// Keeps the numbers within the bounds; any number outside becomes NaN.
     #[must_use]
     pub fn restricted(self, low: f32, high: f32) -> Interval {
         let outside = self.low < low || self.high > high;
@@ -88,23 +95,24 @@ impl Interval {
         if kept.is_empty() { Interval::NAN } else { kept.or_nan_if(outside) }
     }
 
-    /// Brought within the bounds.
+    /// Clamps every number to the bounds.
     #[must_use]
     pub fn clamped(self, low: f32, high: f32) -> Interval {
         Interval { low: self.low.clamp(low, high), high: self.high.clamp(low, high), ..self }
     }
 
-    /// `f` of both bounds, for an increasing `f`; `ulps` is what its `f32` form may be off by.
+    /// Maps both bounds by an increasing `f`, whose `f32` form errs by at most `ulps`.
     #[must_use]
     pub fn map_increasing(self, f: impl Fn(f64) -> f64, ulps: u32) -> Interval {
         let (low, high) = (f(self.low.into()), f(self.high.into()));
         enclose(low, high).widened(ulps).or_nan_if(self.may_be_nan)
     }
 
-    /// Bounds moved outward by as many errors of `ulps` units as binades can make of them.
+    /// Moves the bounds outward by errors of `ulps` units in the last place, whatever their
+    /// binades.
     #[must_use]
     pub fn widened(self, ulps: u32) -> Interval {
-        // Below a power of two the unit is half of that above, and `f64` functions err, too.
+        // Just below a power of two a unit is half as large, and `f64` functions err, too.
         let steps = if ulps == 0 { 0 } else { 2 * ulps + 1 };
         let (mut low, mut high) = (self.low, self.high);
         for _ in 0..steps {
@@ -113,11 +121,13 @@ impl Interval {
         Interval { low, high, ..self }
     }
 
+    /// `−self`
     #[must_use]
     pub fn negated(self) -> Interval {
         Interval { low: -self.high, high: -self.low, ..self }
     }
 
+    /// `|self|`
     #[must_use]
     pub fn abs(self) -> Interval {
         if self.low >= 0.0 {
@@ -129,23 +139,26 @@ impl Interval {
         }
     }
 
+    /// `self + other`
     #[must_use]
     pub fn plus(self, other: Interval) -> Interval {
         self.as_product().plus(other)
     }
 
+    /// `self · other`
     #[must_use]
     pub fn times(self, other: Interval) -> Interval {
         let product = self.product(other);
         enclose(product.low, product.high).or_nan_if(product.may_be_nan)
     }
 
-    /// `self · factor + addend`, the product not rounded.
+    /// `self · factor + addend`, rounded once
     #[must_use]
     pub fn times_plus(self, factor: Interval, addend: Interval) -> Interval {
         self.product(factor).plus(addend)
     }
 
+    /// `self / divisor`; any number if the divisor may be zero
     #[must_use]
     pub fn over(self, divisor: Interval) -> Interval {
         let both_infinite = self.may_be_infinite() && divisor.may_be_infinite();
@@ -180,7 +193,7 @@ impl Interval {
         for a in [self.low, self.high] {
             for b in [other.low, other.high] {
                 let product = f64::from(a) * f64::from(b);
-                // Zero times what may be arbitrarily large, but is a number.
+                // Zero times a number that may be arbitrarily large.
                 let product = if product.is_nan() { 0.0 } else { product };
                 (low, high) = (low.min(product), high.max(product));
             }
@@ -189,7 +202,7 @@ impl Interval {
     }
 }
 
-/// Exact products of `f32`s.
+/// Bounds of exact products of `f32`s.
 struct Product {
     low: f64,
     high: f64,
@@ -207,8 +220,8 @@ impl Product {
     }
 }
 
-/// Bounds of an exact sum, at most one unit in the last place apart (Knuth's two-sum); the line
-/// where there is none.
+/// Bounds an exact sum to at most one unit in the last place (Knuth's two-sum); returns the whole
+/// line where the sum is NaN.
 fn sum(a: f64, b: f64) -> (f64, f64) {
     let sum = a + b;
     if sum.is_nan() {
@@ -219,7 +232,7 @@ fn sum(a: f64, b: f64) -> (f64, f64) {
     (beside(sum, error.min(0.0)), beside(sum, error.max(0.0)))
 }
 
-/// The neighbour of `x` towards the sign of `error`; `x` itself where that is zero or NaN.
+/// Returns the neighbour of `x` towards the sign of `error`, or `x` where that is zero or NaN.
 fn beside(x: f64, error: f64) -> f64 {
     match error.partial_cmp(&0.0) {
         Some(std::cmp::Ordering::Less) => x.next_down(),
@@ -228,7 +241,7 @@ fn beside(x: f64, error: f64) -> f64 {
     }
 }
 
-/// The smallest interval of `f32` bounds around two `f64` bounds.
+/// Returns the smallest interval of `f32` bounds around two `f64` bounds.
 pub fn enclose(low: f64, high: f64) -> Interval {
     let (mut below, mut above) = (low as f32, high as f32);
     if f64::from(below) > low {
@@ -240,7 +253,7 @@ pub fn enclose(low: f64, high: f64) -> Interval {
     Interval { low: below, high: above, may_be_nan: false }
 }
 
-/// The `f32`s between two numbers; the nearest one where there is none.
+/// Returns the `f32`s between two numbers, or the nearest one if there is none between.
 ///
 /// # Panics
 /// If either is NaN, or `low` exceeds `high`.

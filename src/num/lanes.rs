@@ -1,4 +1,4 @@
-//! Registers of `f32` lanes: the trait, and one lane.
+//! The trait of registers of `f32` lanes, and the register of one lane.
 
 use std::ops::{Add, Div, Mul, Sub};
 
@@ -7,12 +7,11 @@ pub(super) const SQRT_HALF: u32 = 0x3f35_04f3;
 
 /// A register of `f32` lanes with IEEE-754 arithmetic, round to nearest even.
 ///
-/// Every method acts lane by lane, and gives each lane the bits that the same
-/// method of `f32` gives. Masks come from comparisons and go into [`select`](Self::select).
+/// Every method acts lane by lane, and gives each lane the bits that the same method of `f32`
+/// gives. Masks come from comparisons and go into [`select`](Self::select).
 ///
-/// A value can be made from nothing only by [`load`](Self::load) and
-/// [`broadcast`](Self::broadcast), whose callers promise that the processor has the
-/// register; that is why every other method is safe.
+/// Only [`load`](Self::load) and [`broadcast`](Self::broadcast) make a value from nothing. Their
+/// callers promise that the processor has the register; hence every other method is safe.
 pub trait Lanes:
     Copy + Add<Output = Self> + Sub<Output = Self> + Mul<Output = Self> + Div<Output = Self>
 {
@@ -41,7 +40,9 @@ pub trait Lanes:
     fn splat(self, value: f32) -> Self;
     /// `self * factor + addend`, rounded once.
     fn fma(self, factor: Self, addend: Self) -> Self;
+    /// The square root, rounded once.
     fn sqrt(self) -> Self;
+    /// The largest integer not above.
     fn floor(self) -> Self;
     /// The nearest integer, halves to even.
     fn round(self) -> Self;
@@ -50,6 +51,7 @@ pub trait Lanes:
     fn lt(self, other: Self) -> Self::Mask;
     /// `self == other`; false where either is NaN.
     fn eq(self, other: Self) -> Self::Mask;
+    /// True where it is NaN.
     fn is_nan(self) -> Self::Mask;
     /// `yes` where `mask` holds, else `no`.
     fn select(mask: Self::Mask, yes: Self, no: Self) -> Self;
@@ -58,37 +60,42 @@ pub trait Lanes:
     /// `high` where `high < self`, else `self` (NaN too).
     fn at_most(self, high: Self) -> Self;
 
+    /// Bitwise and.
     fn bit_and(self, other: Self) -> Self;
+    /// Bitwise or.
     fn bit_or(self, other: Self) -> Self;
+    /// Bitwise exclusive or.
     fn bit_xor(self, other: Self) -> Self;
     /// The bits as integers, added modulo 2³².
     fn add_bits(self, other: Self) -> Self;
     /// The bits as integers, subtracted modulo 2³².
     fn sub_bits(self, other: Self) -> Self;
-    /// The bits shifted left, zeros in.
+    /// Shifts the bits left, zeros in.
     fn shift_left<const N: i32>(self) -> Self;
-    /// The bits as signed integers, shifted right, sign bits in.
+    /// Shifts the bits right as a signed integer, sign bits in.
     fn shift_right<const N: i32>(self) -> Self;
-    /// The bits of the lane's value as a signed integer; the value lies within ±2³⁰.
+    /// Converts the value, which must lie within ±2³⁰, to a signed integer, and returns its bits.
     fn to_int_bits(self) -> Self;
-    /// The float nearest the signed integer that the bits are.
+    /// Converts the bits as a signed integer to the nearest float.
     fn int_to_float(self) -> Self;
 
-    /// The lane with these bits, in every lane.
+    /// The value with these bits, in every lane.
     #[inline(always)]
     fn bits(self, bits: u32) -> Self {
         self.splat(f32::from_bits(bits))
     }
+    /// `−self`, by the sign bit.
     #[inline(always)]
     fn neg(self) -> Self {
         self.bit_xor(self.bits(0x8000_0000))
     }
+    /// `|self|`, by the sign bit.
     #[inline(always)]
     fn abs(self) -> Self {
         self.bit_and(self.bits(0x7fff_ffff))
     }
     /// `self · 2ⁿ`, rounded once, for `self` within [½, 2] and an integral `n` within [−252, 254]:
-    /// in two steps, so that the result may be denormal or infinite. NaN where either is.
+    /// in two steps, so that the result may be denormal or infinite. NaN where either is NaN.
     #[inline(always)]
     fn scale_by_power_of_two(self, n: Self) -> Self {
         let n = n.to_int_bits();
@@ -108,7 +115,8 @@ pub trait Lanes:
         let e = scaled.sub_bits(self.bits(SQRT_HALF)).shift_right::<23>();
         (e.int_to_float() + offset, scaled.sub_bits(e.shift_left::<23>()))
     }
-    /// `result`, but where `self` is ±0 −∞, where it is +∞ that, and NaN where it is negative or NaN.
+    /// Replaces `result` by −∞ where `self` is ±0, +∞ where it is +∞, and NaN where it is negative
+    /// or NaN.
     #[inline(always)]
     fn logarithm_special_cases(self, result: Self) -> Self {
         let zero = self.splat(0.0);

@@ -1,4 +1,4 @@
-//! Points that fill the unit cube more evenly than random ones, and grids.
+//! Spreads points over the unit cube more evenly than random ones do, or on grids.
 //!
 //! Sources: Halton, "On the efficiency of certain quasi-random sequences of
 //! points", 1960; Hammersley, "Monte Carlo methods for solving multivariable
@@ -11,13 +11,14 @@
 
 use rand::{Rng, RngExt};
 
-/// The most dimensions of [`halton`], [`hammersley`] and [`Sobol`].
+/// The most dimensions of [`halton`], [`hammersley`] and [`Sobol`]; the direction numbers below go
+/// no further.
 pub const MAX_DIMENSIONS: usize = 16;
 
 const PRIMES: [u64; MAX_DIMENSIONS] = [2, 3, 5, 7, 11, 13, 17, 19, 23, 29, 31, 37, 41, 43, 47, 53];
 
-/// The digits of `index` in a base of at least 2, mirrored at the point: 6 =
-/// 110₂ becomes 0.011₂ = 3/8.
+/// Mirrors the digits of `index`, in a base of at least 2, at the point: 6 = 110₂ becomes 0.011₂ =
+/// 3/8.
 pub fn radical_inverse(base: u64, mut index: u64) -> f64 {
     let (mut mirrored, mut unit) = (0.0, 1.0);
     while index > 0 {
@@ -29,15 +30,14 @@ pub fn radical_inverse(base: u64, mut index: u64) -> f64 {
     mirrored.min(1.0 - f64::EPSILON / 2.0)
 }
 
-/// Point `index` of Halton's sequence: radical inverses in the first primes.
+/// Returns point `index` of Halton's sequence: radical inverses in the first primes.
 pub fn halton<const D: usize>(index: u64) -> [f64; D] {
     const { assert!(D <= MAX_DIMENSIONS) };
     std::array::from_fn(|axis| radical_inverse(PRIMES[axis], index))
 }
 
-/// Point `index` of Hammersley's set of `count` points: `index / count`, then
-/// radical inverses. Lower discrepancy than [`halton`], but `count` must be
-/// known before.
+/// Returns point `index` of Hammersley's set of `count` points: `index / count`, then radical
+/// inverses. Its discrepancy is lower than that of [`halton`], but `count` must be known before.
 pub fn hammersley<const D: usize>(index: u64, count: u64) -> [f64; D] {
     const { assert!(D <= MAX_DIMENSIONS) };
     std::array::from_fn(|axis| match axis {
@@ -46,7 +46,7 @@ pub fn hammersley<const D: usize>(index: u64, count: u64) -> [f64; D] {
     })
 }
 
-/// Bits of a coordinate, and the most of an index: those of an f64.
+/// Bits of a coordinate and of an index: those of an `f64`'s significand.
 const BITS: usize = 53;
 
 /// For the second and later dimensions: coefficients of the primitive
@@ -70,8 +70,7 @@ const JOE_KUO: [(u64, &[u64]); MAX_DIMENSIONS - 1] = [
     (16, &[1, 3, 1, 13, 27, 49]),
 ];
 
-/// Sobol's sequence: of its first 2ᵏ points, each of 2ᵏ equal intervals of
-/// each axis holds one.
+/// Sobol's sequence: each of the 2ᵏ equal intervals of each axis holds one of the first 2ᵏ points.
 #[derive(Clone, Debug)]
 pub struct Sobol<const D: usize> {
     directions: [[u64; BITS]; D],
@@ -84,14 +83,14 @@ impl<const D: usize> Default for Sobol<D> {
 }
 
 impl<const D: usize> Sobol<D> {
-    /// Computes the direction numbers; make one and use it for many points.
+    /// Computes the direction numbers. Make one and use it for many points.
     pub fn new() -> Sobol<D> {
         const { assert!(D <= MAX_DIMENSIONS) };
         Sobol { directions: std::array::from_fn(directions) }
     }
 
-    /// Point `index` < 2⁵³, in the order of the Gray code, as Joe and Kuo's
-    /// generator gives them; the first is the origin.
+    /// Returns point `index` < 2⁵³, in the order of the Gray code, as Joe and Kuo's generator gives
+    /// them. The first is the origin.
     pub fn point(&self, index: u64) -> [f64; D] {
         let gray = index ^ (index >> 1);
         self.directions.map(|directions| {
@@ -102,7 +101,7 @@ impl<const D: usize> Sobol<D> {
     }
 }
 
-/// Direction numbers of one axis, as multiples of 2⁻⁵³ (Joe and Kuo, eq. 2).
+/// Computes the direction numbers of one axis, as multiples of 2⁻⁵³ (Joe and Kuo, eq. 2).
 fn directions(axis: usize) -> [u64; BITS] {
     let mut directions = [0; BITS];
     if axis == 0 {
@@ -123,13 +122,13 @@ fn directions(axis: usize) -> [u64; BITS] {
     directions
 }
 
-/// The centre of cell `index` of a regular grid of `cells` along each axis,
-/// the last axis varying fastest.
+/// Returns the centre of cell `index` of a regular grid of `cells` along each axis, the last axis
+/// varying fastest.
 pub fn regular_grid<const D: usize>(cells: [u64; D], index: u64) -> [f64; D] {
     in_cell(cells, index, || 0.5)
 }
 
-/// A random point of cell `index` of the same grid.
+/// Returns a random point of cell `index` of such a grid.
 pub fn jittered_grid<const D: usize>(cells: [u64; D], index: u64, rng: &mut impl Rng) -> [f64; D] {
     in_cell(cells, index, || rng.random::<f64>())
 }

@@ -1,12 +1,12 @@
-//! Several registers as one.
+//! Several registers used as one.
 
 use super::Lanes;
 use std::ops::{Add, Div, Mul, Sub};
 
-/// An array of `N` equal expressions but for the index.
+/// An array of `N` expressions that differ in the index alone.
 ///
-/// Not `array::from_fn`: its closure is not always inlined, and by itself it is compiled without the
-/// register's instructions.
+/// `array::from_fn` would not do: its closure is not always inlined, and by itself it is compiled
+/// without the register's instructions.
 macro_rules! array_of {
     ($i:ident => $element:expr) => {{
         let $i = 0;
@@ -23,7 +23,7 @@ macro_rules! array_of {
 pub struct Many<L, const N: usize>([L; N]);
 
 impl<const N: usize> Many<f32, N> {
-    /// The lanes, first to last.
+    /// Returns the lanes, first to last.
     pub fn to_array(self) -> [f32; N] {
         self.0
     }

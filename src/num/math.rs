@@ -1,10 +1,10 @@
-//! Elementary functions over [`Lanes`], the same bits at every width.
+//! Elementary functions over [`Lanes`], with the same bits at every width.
 //!
-//! Each is branch-free: an argument reduction, a polynomial (near-minimax in the
-//! relative error of the result, its coefficients rounded to `f32` one after the other
-//! and the rest refitted), and the special cases by selection. The stated errors are
-//! measured over all 2³² arguments (or, for two arguments, a dense sample) against `f64`. What bounds and
-//! proofs rely on is `op::Op::accuracy`, never less than what is measured.
+//! Each is branch-free: an argument reduction, a polynomial (near-minimax in the relative error of
+//! the result, its coefficients rounded to `f32` one after the other and the rest refitted), and
+//! special cases by selection. The stated errors are measured against `f64` over all 2³² arguments
+//! (or, for two arguments, a dense sample). Bounds and proofs rely on `op::Op::accuracy`, which is
+//! never less than what was measured.
 
 use super::Lanes;
 use std::f32::consts::{FRAC_PI_2, LN_2, LOG2_E, PI};
@@ -85,8 +85,7 @@ pub fn log<L: Lanes>(x: L) -> L {
     x.logarithm_special_cases(e.fma(x.splat(LN_2), f + tail))
 }
 
-/// `exp2(y · log2(x))`: the definition, of which shading languages give no more. NaN for
-/// `x < 0` and at `pow(0, 0)`.
+/// `exp2(y · log2(x))`: all that shading languages define. NaN for `x < 0` and at `pow(0, 0)`.
 #[inline(always)]
 pub fn pow<L: Lanes>(x: L, y: L) -> L {
     exp2(y * log2(x))
@@ -125,7 +124,7 @@ fn sin_shifted<L: Lanes>(x: L, q: u32) -> L {
     let odd = n.bit_and(x.bits(1)).int_to_float().eq(x.splat(1.0));
     let sign = n.bit_and(x.bits(2)).shift_left::<30>();
     let result = L::select(odd, cos, sin).bit_xor(sign);
-    // From 2²³ quadrants on, n is none, and r without meaning.
+    // From 2²³ quadrants on, `n` does not fit and `r` has no meaning.
     let huge = x.splat(1e7).lt(x.abs());
     L::select(huge, x * x.splat(0.0), result)
 }
@@ -156,8 +155,8 @@ fn asin_tail<L: Lanes>(a: L) -> L {
     a * a2 * p
 }
 
-/// `asin |x|` in the parts that both arc functions need: whether |x| > ½, then `a` and
-/// `asin a` where `a` is |x| or √((1−|x|)/2).
+/// The parts of `asin |x|` that both arc functions need: the mask |x| > ½, then `a` and `asin a −
+/// a`, where `a` is |x| or √((1−|x|)/2).
 #[inline(always)]
 fn asin_reduced<L: Lanes>(x: L) -> (L::Mask, L, L) {
     let a = x.abs();

@@ -1,10 +1,9 @@
 //! Numbers: vectors of lanes and the mathematics on them.
 //!
-//! [`Lanes`] is a register of `f32`s; [`math`] is written once over it, and so
-//! gives the same bits at every width: one `f32` (the scalar reference), sixteen in
-//! plain code, in two AVX2 registers, or in one AVX-512 register. [`Interval`] bounds what a
-//! computation can give. [`low_discrepancy`] spreads points over a cube, and
-//! [`CompensatedSum`] adds without losing digits.
+//! [`Lanes`] is a register of `f32`s. [`math`] is written once over it, and so gives the same bits
+//! at every width: one `f32` (the scalar reference), sixteen in plain code, in two AVX2 registers,
+//! or in one AVX-512 register. [`Interval`] bounds what a computation can give. [`low_discrepancy`]
+//! spreads points over a cube, and [`CompensatedSum`] adds without losing digits.
 
 mod interval;
 mod lanes;

@@ -1,8 +1,10 @@
+//! Sums without lost digits.
+
 use std::ops::AddAssign;
 
-/// A sum that also carries what rounding lost of it: its error does not grow
-/// with the number of terms (Neumaier, "Rundungsfehleranalyse einiger Verfahren zur Summation endlicher
-/// Summen", 1974).
+/// A sum that also carries what rounding lost, so that its error does not grow with the number of
+/// terms (Neumaier, "Rundungsfehleranalyse einiger Verfahren zur Summation endlicher Summen",
+/// 1974).
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct CompensatedSum {
     sum: f64,
@@ -10,8 +12,9 @@ pub struct CompensatedSum {
 }
 
 impl CompensatedSum {
+    /// Returns the sum.
     pub fn value(self) -> f64 {
-        // After an overflow what was lost is no number.
+        // After an overflow `lost` is NaN.
         if self.sum.is_finite() { self.sum + self.lost } else { self.sum }
     }
 }

@@ -32,7 +32,7 @@ macro_rules! operators {
 operators!(Avx2: Add add _mm256_add_ps, Sub sub _mm256_sub_ps, Mul mul _mm256_mul_ps, Div div _mm256_div_ps);
 operators!(Avx512: Add add _mm512_add_ps, Sub sub _mm512_sub_ps, Mul mul _mm512_mul_ps, Div div _mm512_div_ps);
 
-/// Methods of one intrinsic each, the register's bits taken as floats or as integers.
+/// Defines methods by one intrinsic each.
 macro_rules! methods {
     (floats $($name:ident($($arg:ident),*) = $body:expr;)*) => {$(
         #[inline(always)]
@@ -204,7 +204,7 @@ impl Lanes for Avx512 {
         int_to_float() = |a| _mm512_cvtepi32_ps(_mm512_castps_si512(a));
         scale_by_power_of_two(n) = |a, n| _mm512_scalef_ps(a, n);
         logarithm_special_cases(result) = |a, result| {
-            // For each class of value (quiet NaN first) a digit: keep the result, NaN, −∞ or +∞.
+            // A digit for each class of value (quiet NaN first): keep the result, NaN, −∞ or +∞.
             _mm512_fixupimm_ps::<0>(result, a, _mm512_set1_epi32(0x0353_0422))
         };
         // VRANGEPS orders −0 < +0 but drops a quiet NaN of one side, so the sum restores it.

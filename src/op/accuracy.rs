@@ -1,13 +1,13 @@
-//! How far results may be off.
+//! States how far an operation's results may be off.
 
-/// What is stated of an operation's results.
+/// The accuracy of an operation's results.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Accuracy {
-    /// Not off at all: a choice among arguments, a sign, a whole number.
+    /// No error: a choice among arguments, a sign, a whole number.
     Exact,
-    /// As far as those of the operations that it is made of, one after the other; it has no error of its own.
+    /// The errors of the operations that it is made of, one after the other, and none of its own.
     InSteps,
-    /// By an error of its own.
+    /// An error of its own.
     Within(Tolerance),
 }
 
@@ -16,14 +16,15 @@ pub enum Accuracy {
 pub struct Tolerance {
     /// Units in the last place of the result.
     pub ulps: f64,
-    /// So many more for each unit of the first argument's magnitude,
+    /// More units in the last place for each unit of the first argument's magnitude,
     pub ulps_per_unit: f64,
     /// up to this magnitude.
     pub most_units: f64,
-    /// In the result's unit, and where the first argument must lie for it to be added.
+    /// An absolute error, in the result's unit.
     pub absolute: f64,
+    /// The first arguments for which the absolute error is added.
     pub absolute_within: [f32; 2],
-    /// The first argument's magnitude up to which any of this is promised.
+    /// The largest magnitude of the first argument for which any of this holds.
     pub up_to: f32,
 }
 
@@ -43,12 +44,12 @@ impl Tolerance {
         Tolerance { absolute, ..Tolerance::of_ulps(0.0) }
     }
 
-    /// Units in the last place, for arguments up to a magnitude.
+    /// Returns the units in the last place for first arguments up to a magnitude.
     pub fn ulps_up_to(&self, magnitude: f64) -> f64 {
         self.ulps + self.ulps_per_unit * magnitude.min(self.most_units)
     }
 
-    /// The absolute error, for arguments from `low` to `high`.
+    /// Returns the absolute error for first arguments from `low` to `high`.
     pub fn absolute_between(&self, low: f32, high: f32) -> f64 {
         let [first, last] = self.absolute_within;
         if low > last || high < first { 0.0 } else { self.absolute }
@@ -56,7 +57,8 @@ impl Tolerance {
 }
 
 impl Accuracy {
-    /// Floating-point numbers between the result and the nearest ones to the exact value, at most.
+    /// Returns the most floating-point numbers between the result and those nearest to the exact
+    /// value.
     pub const fn steps(self) -> u32 {
         match self {
             Accuracy::Exact | Accuracy::InSteps => 0,
@@ -64,7 +66,7 @@ impl Accuracy {
         }
     }
 
-    /// The first argument's magnitude up to which it is promised.
+    /// Returns the largest magnitude of the first argument for which this holds.
     pub const fn up_to(self) -> f32 {
         match self {
             Accuracy::Exact | Accuracy::InSteps => f32::INFINITY,

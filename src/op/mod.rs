@@ -1,9 +1,9 @@
 //! The one table of operations, and their reference semantics.
 //!
-//! A row says what an operation computes, how accurately, and what kind of function it is; all that
-//! bounds, proofs and tests need of these is read here. Everything else that is known of an operation
-//! (bulk kernel, derivative, cost, spelling in each language) is a `match` or a table keyed by [`Op`],
-//! complete by construction or by test.
+//! A row says what an operation computes, how accurately, and what kind of function it is; bounds,
+//! proofs and tests read it here. All else that is known of an operation (bulk kernel, derivative,
+//! cost, spelling in each language) is a `match` or a table keyed by [`Op`], complete by
+//! construction or by test.
 
 mod accuracy;
 
@@ -13,7 +13,7 @@ use crate::num::{Lanes, math};
 use accuracy::{EXACT, IN_STEPS, within, within_ulps as ulps};
 use std::fmt;
 
-/// What an operation is made of, roughly.
+/// The kind of function that an operation is.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Family {
     /// Sums, products, signs, and mixtures of them.
@@ -22,7 +22,7 @@ pub enum Family {
     Quotient,
     /// Square roots and their inverses.
     Root,
-    /// Exponentials, logarithms, and what is made of them.
+    /// Exponentials, logarithms, and functions made of them.
     Exponential,
     /// Trigonometric functions and their inverses.
     Trigonometric,
@@ -134,25 +134,27 @@ macro_rules! define_operations {
                 match self { $(Op::$op => Properties { $($property: true,)* ..Properties::NONE }),* }
             }
 
-            /// What kind of function it is.
+            /// Returns the kind of function that it is.
             pub const fn family(self) -> Family {
                 match self { $(Op::$op => Family::$family),* }
             }
 
-            /// How far the interpreter's results may be off those of the function; measured in the
-            /// conformance tests.
+            /// Returns how far the interpreter's results may be off those of the function, as the
+            /// conformance tests measure.
             pub const fn accuracy(self) -> Accuracy {
                 match self { $(Op::$op => $interpreter),* }
             }
 
-            /// How far results may be off on a GPU that keeps to WGSL's and Vulkan's specifications: "Floating
-            /// Point Accuracy" of the one, "Precision and Operation of SPIR-V Instructions" of the other, and
-            /// where they define an operation by others, what follows.
+            /// Returns how far results may be off on a GPU that keeps to WGSL's and Vulkan's
+            /// specifications: "Floating Point Accuracy" of the one, "Precision and Operation of
+            /// SPIR-V Instructions" of the other. Where these define an operation by others, their
+            /// errors are composed.
             pub const fn gpu_accuracy(self) -> Accuracy {
                 match self { $(Op::$op => $gpu),* }
             }
 
-            /// The reference semantics; arguments beyond the arity are not looked at.
+            /// Computes the result, by the reference semantics; arguments beyond the arity are
+            /// ignored.
             #[inline(always)]
             pub fn apply<L: Lanes>(self, arguments: [L; 4]) -> L {
                 match self {
@@ -180,18 +182,19 @@ impl Properties {
         Properties { commutes: false, piecewise: false, needs_positive: false };
 }
 
-/// exp2 as WGSL has it: 3 + 2|x| ulp. No finite result's argument is beyond ±200.
+/// WGSL's exp2: 3 + 2|x| ulp. No argument of a finite result is beyond ±200.
 const POWER: Tolerance =
     Tolerance { ulps_per_unit: 2.0, most_units: 200.0, ..Tolerance::of_ulps(3.0) };
 
-/// An absolute error between 0.5 and 2, where the result is near zero, and 3 ulp elsewhere.
+/// WGSL's log: an absolute error for arguments within [0.5, 2], where the result is near zero, and
+/// 3 ulp elsewhere.
 const LOGARITHM: Tolerance = Tolerance {
     absolute: 1.0 / (1 << 21) as f64,
     absolute_within: [0.5, 2.0],
     ..Tolerance::of_ulps(3.0)
 };
 
-/// The interpreter's reduction of angles keeps its digits up to 10⁴.
+/// The interpreter's reduction of angles is exact enough up to 10⁴.
 const WAVE: Tolerance = Tolerance { up_to: 1e4, ..Tolerance::of_ulps(2.0) };
 const WAVES_QUOTIENT: Tolerance = Tolerance { up_to: 1e4, ..Tolerance::of_ulps(4.0) };
 
@@ -199,35 +202,35 @@ const WAVES_QUOTIENT: Tolerance = Tolerance { up_to: 1e4, ..Tolerance::of_ulps(4
 const GPU_WAVE: Tolerance =
     Tolerance { up_to: std::f32::consts::PI, ..Tolerance::of_size(1.0 / (1 << 11) as f64) };
 
-/// By way of atan2(x, sqrt(1 − x²)), whose root may be off by 2.5e-4 near x = 1; with 4096 ulp of an angle up to
-/// π/2, and up to π.
+/// WGSL's asin: as atan2(x, sqrt(1 − x²)). The root may be off by 2.5e-4 near x = 1, and atan2 by
+/// 4096 ulp, of an angle up to π/2 or π.
 const ASIN: Tolerance = Tolerance::of_size(1.1e-3);
 const ACOS: Tolerance = Tolerance::of_size(1.8e-3);
 
-/// By way of sinh(x)/cosh(x): four exponentials and a quotient. Beyond ±89 both are infinite.
+/// WGSL's tanh: as sinh(x)/cosh(x), four exponentials and a quotient. Beyond ±89 both are infinite.
 const TANH: Tolerance =
     Tolerance { ulps_per_unit: 4.0, most_units: 89.0, absolute: 1e-5, ..Tolerance::of_ulps(13.0) };
 
-/// The most arguments an operation has.
+/// The most arguments of an operation.
 pub const MAX_ARITY: usize = 4;
 
 impl Op {
-    /// The operation of this name.
+    /// Returns the operation of this name.
     pub fn from_name(name: &str) -> Option<Op> {
         Op::ALL.iter().copied().find(|op| op.name() == name)
     }
 
-    /// Whether the first two arguments may be swapped.
+    /// Returns true if the first two arguments may be swapped.
     pub const fn commutes(self) -> bool {
         self.properties().commutes
     }
 
-    /// Whether the function has a kink or a jump.
+    /// Returns true if the function has a kink or a jump.
     pub const fn is_piecewise(self) -> bool {
         self.properties().piecewise
     }
 
-    /// Whether it is NaN of a negative first argument.
+    /// Returns true if it is NaN of a negative first argument.
     pub const fn needs_positive(self) -> bool {
         self.properties().needs_positive
     }

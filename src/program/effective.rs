@@ -1,8 +1,8 @@
-//! Effective code: what some output depends on.
+//! Effective code: the instructions that an output depends on.
 
 use super::{Arg, Draft, Program};
 
-/// How often each instruction's result is read by effective code or an output; 0 for introns.
+/// Counts how often effective code and outputs read each instruction's result; 0 for introns.
 pub fn use_counts(draft: &Draft, counts: &mut Vec<u32>) {
     counts.clear();
     counts.resize(draft.instrs.len(), 0);
@@ -23,20 +23,22 @@ pub fn use_counts(draft: &Draft, counts: &mut Vec<u32>) {
     }
 }
 
-/// The program without its introns and unused constants; it evaluates bit for bit as `program`.
+/// Returns the program without its introns and unused constants; it evaluates bit for bit as
+/// `program`.
 pub fn effective(program: &Program) -> Program {
     let mut draft = Draft::default();
     effective_into(program, &mut draft, &mut Vec::new());
     Program(draft)
 }
 
-/// [`effective`] into `target`, with `scratch`; nothing is allocated once both are large enough.
+/// Writes the [`effective`] code to `target`, with `scratch`; nothing is allocated once both are
+/// large enough.
 pub fn effective_into(source: &Draft, target: &mut Draft, scratch: &mut Vec<u32>) {
     use_counts(source, scratch);
     let instructions = source.instrs.len();
     scratch.resize(instructions + source.consts.len(), UNUSED);
     target.clear(source.inputs);
-    // A kept instruction's count becomes its new index; behind them stand the constants'.
+    // A kept instruction's count becomes its new index; the constants' indices follow.
     for (i, instr) in source.instrs.iter().enumerate() {
         if scratch[i] == 0 {
             continue;
@@ -54,10 +56,10 @@ pub fn effective_into(source: &Draft, target: &mut Draft, scratch: &mut Vec<u32>
     }
 }
 
-/// The mark of a constant that no effective instruction has read yet.
+/// Marks a constant that no effective instruction has read yet.
 const UNUSED: u32 = u32::MAX;
 
-/// The argument under the new numbering; a constant is entered when first met.
+/// Renumbers an argument; a constant is added when first met.
 fn moved(arg: Arg, source: &Draft, target: &mut Draft, new_index: &mut [u32]) -> Arg {
     match arg {
         Arg::Input(_) => arg,

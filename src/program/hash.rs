@@ -1,20 +1,20 @@
-//! The canonical structural hash.
+//! The canonical structural hash of a program.
 
 use super::{Arg, Draft};
 use crate::op::Op;
 
-/// Whether the values of constants count.
+/// The part of constants in a hash.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Constants {
-    /// Only that there is a constant: programs that fitting makes equal have equal hashes.
+    /// A constant counts, its value does not: programs that fitting makes equal have equal hashes.
     Ignored,
-    /// Their bits.
+    /// The bits of constants count.
     Exact,
 }
 
-/// A hash of what the outputs compute: introns, the order of independent instructions,
-/// whether a result is shared or computed twice, and the order of operands where it commutes
-/// leave it unchanged. `scratch` holds a hash for each instruction.
+/// Hashes what the outputs compute. Introns, the order of independent instructions, whether a
+/// result is shared or computed twice, and the order of operands that commute leave it unchanged.
+/// `scratch` holds a hash for each instruction.
 pub fn structural_hash(draft: &Draft, constants: Constants, scratch: &mut Vec<u64>) -> u64 {
     scratch.clear();
     for instr in &draft.instrs {

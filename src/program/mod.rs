@@ -2,8 +2,18 @@
 //!
 //! An instruction ([`Instr`]) is an operation and its arguments, each an input column, a
 //! constant, or the result of an **earlier** instruction (Pesce & Iwanicki 2015, §5.2).
-//! A [`Draft`] is any such string; a [`Program`] is a draft that was verified, and can
-//! therefore be evaluated, costed and emitted without failing.
+//! A [`Draft`] is any such string; a [`Program`] is a draft that was verified, and can therefore be
+//! evaluated, costed and emitted without failing.
+//!
+//! ```
+//! use lgp::program::{Names, parse, print};
+//!
+//! let names = Names::new(["x"], ["y"]);
+//! let program = parse("y = 1 + x*x", &names)?;
+//! assert_eq!(program.evaluate(&[3.0]), [10.0]);
+//! assert_eq!(print(&program, &names), "y = 1 + x^2");
+//! # Ok::<(), lgp::program::ParseError>(())
+//! ```
 
 mod effective;
 mod hash;
@@ -25,14 +35,14 @@ use crate::op::{MAX_ARITY, Op};
 use serde::{Deserialize, Serialize};
 use std::ops::Deref;
 
-/// Where an argument, or an output, comes from.
+/// The source of an argument or an output.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
 pub enum Arg {
     /// The input column of this index.
     Input(u16),
     /// The result of the instruction of this index.
     Result(u16),
-    /// The entry of this index of the constant table.
+    /// The entry of the constant table of this index.
     Const(u16),
 }
 
@@ -44,7 +54,7 @@ pub struct Instr {
 }
 
 impl Instr {
-    /// An instruction of `op` on the first `op.arity()` of `args`.
+    /// Makes an instruction of `op` on the first `op.arity()` of `args`.
     ///
     /// # Panics
     /// If `args` has fewer entries than the operation takes.
@@ -54,33 +64,37 @@ impl Instr {
         Instr { op, args: all }
     }
 
+    /// Returns the operation.
     pub fn op(&self) -> Op {
         self.op
     }
 
-    /// The arguments, as many as the operation takes.
+    /// Returns the arguments, as many as the operation takes.
     pub fn args(&self) -> &[Arg] {
         &self.args[..self.op.arity()]
     }
 
-    /// The arguments, to be changed; what they may refer to is checked by [`Program::verify`].
+    /// Returns the arguments for changing; [`Program::verify`] checks what they refer to.
     pub fn args_mut(&mut self) -> &mut [Arg] {
         &mut self.args[..self.op.arity()]
     }
 }
 
-/// A program not yet verified.
+/// A program that is not yet verified.
 #[derive(Clone, Debug, PartialEq, Default, Serialize, Deserialize)]
 pub struct Draft {
     /// The number of input columns.
     pub inputs: usize,
+    /// The instructions; each may read the results of earlier ones.
     pub instrs: Vec<Instr>,
+    /// The constant table.
     pub consts: Vec<f32>,
     /// One entry per output.
     pub outputs: Vec<Arg>,
 }
 
-/// What makes a draft no program.
+/// The reason why a draft is not a program.
+#[allow(missing_docs, reason = "each message names its fields")]
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum Invalid {
     #[error("{place} reads input {index}, but there are only {inputs} inputs")]
@@ -93,14 +107,16 @@ pub enum Invalid {
     NotFinite { index: usize, value: f32 },
     #[error("a program needs at least one output")]
     NoOutput,
-    #[error("{count} {what} are more than {}", u16::MAX)]
+    #[error("{count} {what}; a program has at most {}", u16::MAX)]
     TooMany { count: usize, what: &'static str },
 }
 
-/// Where in a draft an argument stands.
+/// The place of an argument in a draft.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Place {
+    /// In the instruction of this index.
     Instruction(usize),
+    /// The output of this index.
     Output(usize),
 }
 
@@ -114,19 +130,19 @@ impl std::fmt::Display for Place {
 }
 
 impl Draft {
-    /// Adds an instruction and gives its result.
+    /// Adds an instruction and returns its result.
     pub fn push(&mut self, op: Op, args: &[Arg]) -> Arg {
         self.instrs.push(Instr::new(op, args));
         Arg::Result((self.instrs.len() - 1) as u16)
     }
 
-    /// Adds a constant.
+    /// Adds a constant and returns it.
     pub fn constant(&mut self, value: f32) -> Arg {
         self.consts.push(value);
         Arg::Const((self.consts.len() - 1) as u16)
     }
 
-    /// Makes `self` equal to `other` without giving up its allocations.
+    /// Copies `other`, keeping the allocations.
     pub fn copy_from(&mut self, other: &Draft) {
         self.inputs = other.inputs;
         self.instrs.clone_from(&other.instrs);
@@ -134,7 +150,7 @@ impl Draft {
         self.outputs.clone_from(&other.outputs);
     }
 
-    /// Empties the draft, keeping its allocations.
+    /// Empties the draft, keeping the allocations, and sets the number of inputs.
     pub fn clear(&mut self, inputs: usize) {
         self.inputs = inputs;
         self.instrs.clear();
@@ -157,10 +173,10 @@ impl Draft {
         }
     }
 
-    /// Whether it is a program.
+    /// Checks that the draft is a program.
     ///
     /// # Errors
-    /// The first thing that makes it none.
+    /// [`Invalid`]: the first reason why it is not.
     pub fn check(&self) -> Result<(), Invalid> {
         let counts = [
             (self.inputs, "inputs"),
@@ -194,18 +210,24 @@ impl Draft {
 pub struct Program(Draft);
 
 impl Program {
-    /// Checks a draft.
+    /// Checks a draft and makes it a program.
+    ///
+    /// # Errors
+    /// As [`Draft::check`].
     pub fn verify(draft: Draft) -> Result<Program, Invalid> {
         draft.check()?;
         Ok(Program(draft))
     }
 
-    /// The draft, to be changed and verified again.
+    /// Returns the draft, for changing and verifying again.
     pub fn into_draft(self) -> Draft {
         self.0
     }
 
-    /// Replaces this program by a copy of `draft`, if that is one; reuses the allocations.
+    /// Replaces this program by a copy of `draft`, reusing the allocations.
+    ///
+    /// # Errors
+    /// As [`Draft::check`]; the program is then unchanged.
     pub fn assign(&mut self, draft: &Draft) -> Result<(), Invalid> {
         draft.check()?;
         self.0.copy_from(draft);
@@ -221,8 +243,7 @@ impl Program {
         self.0.consts.copy_from_slice(consts);
     }
 
-    /// The values of every instruction and then the outputs, at one sample, by the scalar
-    /// reference semantics.
+    /// Evaluates the outputs at one sample, by the scalar reference semantics.
     ///
     /// # Panics
     /// If `inputs` has not one value for each input column.

@@ -1,8 +1,8 @@
-//! Functions around formulas.
+//! Outer forms: functions around formulas.
 
 use super::{Arg, Draft, Program};
 
-/// Outputs as expressions over inputs and over values for which formulas are to be found: its holes.
+/// Outputs as expressions over inputs and over values for which formulas are sought: its holes.
 ///
 /// ```
 /// use lgp::program::{Draft, Names, Outer, Program, parse, print};
@@ -20,25 +20,26 @@ pub struct Outer {
 }
 
 impl Outer {
-    /// A program whose last inputs are the holes.
+    /// Makes an outer form of a program whose last inputs are the holes.
     ///
     /// # Panics
-    /// If the program has fewer inputs than there are to be holes.
+    /// If the program has fewer inputs than `holes`.
     pub fn new(program: Program, holes: usize) -> Outer {
         assert!(holes <= program.inputs, "a hole is an input of the outer form");
         Outer { program, holes }
     }
 
-    /// How many formulas are to be found.
+    /// Returns the number of holes, each to be filled by a formula.
     pub fn holes(&self) -> usize {
         self.holes
     }
 
-    /// The outputs that a child, which computes the holes from the inputs, becomes. The child's instructions and
-    /// constants come first and keep their places.
+    /// Fills the holes with the outputs of a child, which reads the inputs. The child's
+    /// instructions and constants come first and keep their indices.
     ///
     /// # Panics
-    /// If the child has other numbers of inputs than the form or of outputs than it has holes.
+    /// If the child's number of inputs is not the form's, or its number of outputs not that of
+    /// holes.
     pub fn append(&self, child: &Draft) -> Draft {
         let (inputs, holes) = (child.inputs, child.outputs.len());
         assert_eq!((inputs + holes, holes), (self.program.inputs, self.holes), "what is filled in");

@@ -1,12 +1,12 @@
-//! Drafts made of drafts.
+//! Makes drafts of drafts.
 
 use super::{Arg, Draft, Instr, Invalid, Program};
 use crate::op::Op;
 
 impl Draft {
-    /// The draft made anew, instruction by instruction: `make` is given what there is of the new draft, an
-    /// instruction's place, and the instruction with its arguments as they have become; it adds what it likes
-    /// and gives the value that takes the result's place. Inputs and constants keep their indices.
+    /// Rebuilds the draft instruction by instruction. `make` is given the new draft so far, the old
+    /// instruction's index, and the instruction with its new arguments; it adds what it likes and
+    /// returns the value that replaces the result. Inputs and constants keep their indices.
     pub fn rewritten(&self, mut make: impl FnMut(&mut Draft, usize, Instr) -> Arg) -> Draft {
         let mut new = Draft {
             inputs: self.inputs,
@@ -28,8 +28,8 @@ impl Draft {
         new
     }
 
-    /// Adds another draft's instructions and constants, its inputs being some of this one's values; gives what
-    /// its outputs have become.
+    /// Appends another draft's instructions and constants, its inputs being values of this one;
+    /// returns its outputs' values here.
     ///
     /// # Panics
     /// If `inputs` has fewer entries than `other` has inputs.
@@ -49,7 +49,7 @@ impl Draft {
         other.outputs.iter().map(|&output| moved(output)).collect()
     }
 
-    /// Gives each place where a constant is read one of its own, so that they can be fitted apart.
+    /// Gives each read of a constant a constant of its own, so that each can be fitted apart.
     pub fn unshare_constants(&mut self) {
         let known = std::mem::take(&mut self.consts);
         let Draft { instrs, consts, outputs, .. } = self;
@@ -61,12 +61,12 @@ impl Draft {
         }
     }
 
-    /// Adds an instruction as it is.
+    /// Adds an instruction and returns its result.
     pub fn push_instr(&mut self, instr: Instr) -> Arg {
         self.push(instr.op(), instr.args())
     }
 
-    /// Adds an instruction, a `mad` as a product and a sum.
+    /// Adds an instruction, a `mad` as a product and a sum, and returns the result.
     pub(crate) fn push_unfused(&mut self, instr: Instr) -> Arg {
         if instr.op() != Op::Mad {
             return self.push_instr(instr);
@@ -77,13 +77,14 @@ impl Draft {
 }
 
 impl Program {
-    /// The program with each `mad` as a product and a sum, both rounded, as languages without one have it.
+    /// Returns the program with each `mad` as a product and a sum, both rounded, for languages
+    /// without one.
     pub fn unfused(&self) -> Program {
         self.or_longer(self.rewritten(|draft, _, instr| draft.push_unfused(instr)))
     }
 
-    /// What was made of this program by a rewriting that can fail only in that there are more instructions or
-    /// constants than programs can hold; this program, then.
+    /// Returns the program that a rewriting made of this one, or this one if there are more
+    /// instructions or constants than a program can hold; the rewriting must not fail otherwise.
     pub(crate) fn or_longer(&self, rewritten: Draft) -> Program {
         Program::verify(rewritten).unwrap_or_else(|invalid| {
             debug_assert!(matches!(invalid, Invalid::TooMany { .. }), "{invalid}");

@@ -1,5 +1,5 @@
-//! How expressions are written, in formula text and in languages: a template an operation, and signs where the
-//! fewest stand.
+//! Spells expressions, in formula text and in languages: a template for each operation, and as few
+//! signs as possible.
 
 use crate::op::Op;
 
@@ -14,9 +14,9 @@ pub(crate) enum Binding {
     Atom,
 }
 
-/// How an operation is written: `{a}`, `{b}`, `{c}`, `{d}` stand for its arguments, and a mark
-/// says how tightly the argument must bind to need no parentheses: none anything, `+` a sum,
-/// `*` a product, `-` a negation, `^` a power, `!` an atom. Other braces are the language's.
+/// The spelling of an operation: `{a}`, `{b}`, `{c}`, `{d}` stand for its arguments, and a mark
+/// says how tightly the argument must bind to need no parentheses: none anything, `+` a sum, `*` a
+/// product, `-` a negation, `^` a power, `!` an atom. Other braces are the language's.
 pub(crate) struct Spelling {
     pub template: &'static str,
     pub binding: Binding,
@@ -46,14 +46,14 @@ pub(crate) const fn atom(template: &'static str) -> Spelling {
     Spelling { template, binding: Binding::Atom }
 }
 
-/// Where an argument stands in a template, and how tightly it must bind there.
+/// An argument in a template, and how tightly it must bind there.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct ArgumentPlace {
     pub argument: usize,
     pub least: Binding,
 }
 
-/// A template's places, each after the text before it, and the text after the last.
+/// Splits a template into its places, each after the text before it, and the text after the last.
 pub(crate) fn pieces(template: &str) -> (Vec<(&str, ArgumentPlace)>, &str) {
     let mut pieces = Vec::new();
     let (mut start, mut from) = (0, 0);
@@ -70,7 +70,7 @@ pub(crate) fn pieces(template: &str) -> (Vec<(&str, ArgumentPlace)>, &str) {
     (pieces, &template[start..])
 }
 
-/// The place at the start of the text, and its length.
+/// Reads the place at the start of the text; returns it and its length.
 pub(crate) fn place(text: &str) -> Option<(ArgumentPlace, usize)> {
     let (name, end) = match text.as_bytes() {
         [b'{', name @ b'a'..=b'd', b'}', ..] => (*name, 2),
@@ -89,7 +89,7 @@ pub(crate) fn place(text: &str) -> Option<(ArgumentPlace, usize)> {
     Some((ArgumentPlace { argument: usize::from(name - b'a'), least }, end + 1))
 }
 
-/// What a reader of a value writes for it.
+/// The text that a reader of a value writes for it.
 #[derive(Clone, Debug)]
 pub(crate) struct Written {
     pub text: String,
@@ -107,7 +107,7 @@ impl Written {
         Written::new(text, Binding::Atom)
     }
 
-    /// A number, by the text of a number that has no sign.
+    /// Writes a number, given the text of numbers without a sign.
     pub fn number(value: f32, literal: impl Fn(f32) -> String) -> Written {
         if !value.is_sign_negative() {
             return Written::name(literal(value));
@@ -116,15 +116,16 @@ impl Written {
         Written { text: literal(value), binding: Binding::Negation, negated }
     }
 
-    /// The negated value, where that takes a sign away.
+    /// Returns the negated value, where that takes a sign away.
     pub fn turned(&self) -> Option<Written> {
         let (text, binding) = self.negated.clone()?;
         Some(Written::new(text, binding))
     }
 }
 
-/// An operation's arguments with their signs where the fewest stand. That is exact: a rounded result is that of the
-/// negated arguments, negated, and a sum is the difference from the negated term.
+/// Reorders an operation's arguments so that the fewest signs are written. This is exact: a rounded
+/// result is that of the negated arguments, negated, and a sum is the difference from the negated
+/// term.
 pub(crate) fn move_signs<T: Clone>(op: Op, args: &mut [T], turned: impl Fn(&T) -> Option<T>) {
     let [first, second] = args else { return };
     match (op, turned(first), turned(second)) {
@@ -135,7 +136,7 @@ pub(crate) fn move_signs<T: Clone>(op: Op, args: &mut [T], turned: impl Fn(&T) -
     }
 }
 
-/// A product or quotient negated, where that takes a sign away.
+/// Negates a product or quotient, where that takes a sign away.
 pub(crate) fn negated_product(
     spelling: &Spelling,
     args: &[&Written],
@@ -149,8 +150,8 @@ pub(crate) fn negated_product(
     Some((filled(spelling, &args, parentheses, signs), spelling.binding))
 }
 
-/// A template with the arguments in its places, a plus or minus before an argument exchanged where that takes a sign
-/// away.
+/// Fills a template with arguments; a plus or minus before an argument changes where that takes a
+/// sign away.
 pub(crate) fn filled(
     spelling: &Spelling,
     args: &[&Written],
@@ -175,7 +176,7 @@ pub(crate) fn filled(
     text + rest
 }
 
-/// The text with a minus for the plus at its end, or the other way round.
+/// Exchanges the plus or minus at the end of the text.
 fn other_sign(before: &str, [plus, minus]: [&str; 2]) -> Option<String> {
     let exchanged = |from: &str, to: &str| Some(before.strip_suffix(from)?.to_owned() + to);
     exchanged(plus, minus).or_else(|| exchanged(minus, plus))

@@ -1,17 +1,17 @@
-//! What any compiler does to a program, and no more.
+//! Folds programs: what any compiler does, and no more.
 
 use super::Simplifier;
 use crate::op::Op;
 use crate::program::{Arg, Draft, Instr, Program};
 
-/// The program as compilers run it: effective code, constants folded, nothing that does nothing, nothing
-/// twice. The order of operands stays.
+/// Returns the program as compilers run it: effective code, constants folded, no operation that
+/// does nothing, none done twice. The order of operands stays.
 pub fn folded(program: &Program) -> Program {
-    // Folding makes no constant that is not finite, and leaves every output there is.
+    // Folding makes only finite constants, and keeps every output.
     Program::verify(folded_draft(program)).expect("what is folded is a program")
 }
 
-/// [`folded`], of drafts.
+/// [`folded`], for drafts.
 pub fn folded_draft(draft: &Draft) -> Draft {
     let mut simplifier =
         Simplifier { only_folds: true, merges_constants: true, ..Simplifier::default() };
@@ -21,14 +21,14 @@ pub fn folded_draft(draft: &Draft) -> Draft {
 }
 
 impl Simplifier {
-    /// [`folded_draft`], but that equal constants stay apart, since they may be fitted apart.
+    /// [`folded_draft`], except that equal constants stay apart, since they may be fitted apart.
     pub fn fold_constants(&mut self, source: &Draft, target: &mut Draft) {
         self.only_folds = true;
         self.merges_constants = false;
         self.settle(source, target);
     }
 
-    /// Whether folding would surely do nothing to a draft but leave out introns: a quick look, for costing
+    /// Returns true if folding would surely remove nothing but introns: a quick look, for costing
     /// candidates that are simplified already.
     pub fn is_folded(draft: &Draft) -> bool {
         let mut each = draft.instrs.iter().enumerate();
@@ -38,7 +38,8 @@ impl Simplifier {
         })
     }
 
-    /// The number in the constant table; in folded programs each once.
+    /// Returns the entry of a number in the constant table; in folded programs each number has one
+    /// entry.
     pub(super) fn number(&mut self, value: f32) -> Arg {
         let known = || self.draft.consts.iter().position(|c| c.to_bits() == value.to_bits());
         match self.merges_constants.then(known).flatten() {
@@ -47,7 +48,7 @@ impl Simplifier {
         }
     }
 
-    /// The place of an instruction that gives the same.
+    /// Returns the index of an instruction with the same result.
     pub(super) fn known(&self, instr: &Instr) -> Option<usize> {
         let mut swapped = *instr;
         if instr.op().commutes() {
@@ -57,13 +58,13 @@ impl Simplifier {
     }
 }
 
-/// Whether an instruction stands twice, with the same constants.
+/// Returns true if an instruction occurs twice, with the same constants.
 pub(super) fn has_twice(draft: &Draft) -> bool {
     let mut each = draft.instrs.iter().enumerate();
     each.any(|(i, instr)| draft.instrs[..i].contains(instr))
 }
 
-/// Whether an operation may be one of those that folding leaves out; not all are, as `1/0` is not.
+/// Returns true if folding may remove an instruction; it need not, as `1/0` shows.
 fn may_do_nothing(draft: &Draft, instr: &Instr) -> bool {
     let args = instr.args();
     let constant = |arg: &Arg| match arg {

@@ -1,12 +1,13 @@
-//! What is left of operations that do nothing: any compiler knows these.
+//! Replaces operations that do nothing, as any compiler does.
 
 use super::Simplifier;
 use crate::op::Op;
 use crate::program::Arg;
 
 impl Simplifier {
-    /// What `op` on `args` is where it does nothing, or nothing but change a sign; the same value wherever
-    /// what is written has a finite one, but for the sign of a zero and the rounding of a power.
+    /// Returns the value of `op` on `args` where it does nothing, or nothing but change a sign; it
+    /// is the same wherever the operation's result is finite, except for the sign of a zero and the
+    /// rounding of a power.
     pub(super) fn identity(&mut self, op: Op, args: &[Arg]) -> Option<Arg> {
         let (x, y) = (args[0], *args.get(1).unwrap_or(&args[0]));
         let known = [self.constant(x), self.constant(y)];
@@ -34,7 +35,7 @@ impl Simplifier {
         }
     }
 
-    /// A `mad` of which a factor or the summand does nothing.
+    /// Simplifies a `mad` of which a factor or the summand does nothing.
     fn plain_mad(&mut self, args: &[Arg]) -> Option<Arg> {
         let (a, b, c) = (args[0], args[1], args[2]);
         match [a, b, c].map(|arg| self.constant(arg)) {

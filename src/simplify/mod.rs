@@ -1,17 +1,19 @@
-//! Algebra on programs, at two levels. This module alone decides what is left of a formula.
+//! Algebra on programs, at two levels. No other module simplifies formulas.
 //!
-//! **Folding** ([`folded`]) is what any shader compiler does, since shaders are compiled without strict
-//! IEEE-754: operations on constants alone are computed, what does nothing is dropped (`x + 0`, `1*x`, `x/1`,
-//! `x - x`, `0*x`, `pow(x, 1)`), what is written twice is computed once. Finite values keep their bits, but for the
-//! sign of a zero and the rounding of a power; where `x` is infinite or NaN, `x - x` and `0*x` are 0 all the same. So cycles are those of the folded
-//! code ([`crate::cost`]), and a formula that is scored, shown or emitted is folded first: its errors are those
-//! of the text that is shown. Proofs of a formula that someone wrote ([`crate::stability`]) are of it as written.
+//! **Folding** ([`folded`]) is what any shader compiler does, since shaders are compiled without
+//! strict IEEE-754: operations on constants alone are computed, operations that do nothing are
+//! dropped (`x + 0`, `1*x`, `x/1`, `x - x`, `0*x`, `pow(x, 1)`), and repeated ones are computed
+//! once. Finite values keep their bits, except for the sign of a zero and the rounding of a power;
+//! where `x` is infinite or NaN, `x - x` and `0*x` are 0 all the same. Cycles are therefore those
+//! of the folded code ([`crate::cost`]), and a formula that is scored, shown or emitted is folded
+//! first: its errors are those of the text shown. Proofs ([`crate::stability`]) are of formulas as
+//! their authors wrote them.
 //!
-//! **Simplification** ([`Simplifier::simplify`]) goes further, to what fitting would make equal. A candidate is
-//! rebuilt instruction by instruction; each new one is first looked for among those that exist (so equal
-//! subexpressions are shared), and rewritten where a rule applies, until no rule does. Constants are taken
-//! as free: `(x + c₁) + c₂` becomes `x + c₃`. Rounding may change, so whoever needs the value evaluates the
-//! result; nothing is promised bit for bit. A simplified program has no operation that does nothing, none on
+//! **Simplification** ([`Simplifier::simplify`]) also merges what fitting would make equal. A
+//! candidate is rebuilt instruction by instruction; each new one is first looked for among those
+//! that exist (so equal subexpressions are shared), and rewritten while a rule applies. Constants
+//! are taken as free: `(x + c₁) + c₂` becomes `x + c₃`. Rounding may change: callers that need the
+//! value evaluate the result. A simplified program has no operation that does nothing, none on
 //! constants alone unless its value is not finite (`1/0`), and is its own simplification.
 
 mod fold;
@@ -38,22 +40,22 @@ pub struct Simplifier {
     numbers: Vec<Arg>,
     /// How often each instruction of the source is read.
     uses: Vec<u32>,
-    /// Whether each new instruction is read once only, in the end.
+    /// For each new instruction, true if it is read only once in the end.
     read_once: Vec<bool>,
-    /// Whether each new instruction is an output.
+    /// For each new instruction, true if it is an output.
     is_output: Vec<bool>,
     scratch: Vec<u32>,
-    /// Whether nothing is done but to fold.
+    /// True if only folding is done.
     only_folds: bool,
-    /// Whether equal constants are one; otherwise they can be fitted apart.
+    /// True if equal constants are merged; otherwise they can be fitted apart.
     merges_constants: bool,
-    /// Whether anything but introns was left out or made anew.
+    /// True if anything but introns was removed or rewritten.
     changed: bool,
     previous: Draft,
     shared: Draft,
 }
 
-/// Passes over a program, at most; hardly any needs more than three.
+/// The most passes over a program; hardly any needs more than three.
 const MAX_PASSES: usize = 12;
 
 impl Simplifier {
@@ -64,7 +66,7 @@ impl Simplifier {
         if !fold::has_twice(source) {
             return self.settle(source, target);
         }
-        // Whether a result is read once shows when what is written twice is shared.
+        // Sharing repeated code first shows which results are read once.
         let mut shared = std::mem::take(&mut self.shared);
         self.only_folds = true;
         self.settle(source, &mut shared);
@@ -73,7 +75,7 @@ impl Simplifier {
         self.shared = shared;
     }
 
-    /// Passes until nothing changes.
+    /// Repeats passes until nothing changes.
     fn settle(&mut self, source: &Draft, target: &mut Draft) {
         self.pass(source, target);
         let mut previous = std::mem::take(&mut self.previous);
@@ -87,7 +89,7 @@ impl Simplifier {
         self.previous = previous;
     }
 
-    /// One pass over the instructions, in their order.
+    /// Passes over the instructions once, in order.
     fn pass(&mut self, source: &Draft, target: &mut Draft) {
         self.changed = false;
         use_counts(source, &mut self.uses);
@@ -131,7 +133,7 @@ impl Simplifier {
         }
     }
 
-    /// The result of `op` on `args`: rewritten by a rule, or shared, or new.
+    /// Returns the result of `op` on `args`: rewritten by a rule, or shared, or new.
     fn build(&mut self, op: Op, args: &[Arg]) -> Arg {
         if let Some(rewritten) = self.rewritten(op, args) {
             self.changed = true;
@@ -163,7 +165,7 @@ impl Simplifier {
         if self.only_folds { None } else { self.rewrite(op, args) }
     }
 
-    /// The value of an operation on constants, where it is finite.
+    /// Computes an operation on constants, if its value is finite.
     fn fold(&mut self, op: Op, args: &[Arg]) -> Option<Arg> {
         let mut values = [0.0; MAX_ARITY];
         for (to, &arg) in values.iter_mut().zip(args) {
@@ -187,14 +189,14 @@ impl Simplifier {
         }
     }
 
-    /// The arguments of `arg`'s instruction, if that is an `op`.
+    /// Returns the first two arguments of `arg`'s instruction, if that is an `op`.
     fn operands(&self, arg: Arg, op: Op) -> Option<(Arg, Arg)> {
         let instr = self.definition(arg).filter(|instr| instr.op() == op)?;
         let args = instr.args();
         Some((args[0], *args.get(1).unwrap_or(&args[0])))
     }
 
-    /// What `arg` is the negative of; nothing where that sign is paid for, being an output's.
+    /// Returns the value that `arg` negates, unless that sign costs something, being an output's.
     fn negated(&self, arg: Arg) -> Option<Arg> {
         let (inner, _) = self.operands(arg, Op::Neg)?;
         matches!(arg, Arg::Result(i) if !self.is_output[usize::from(i)]).then_some(inner)

@@ -1,11 +1,12 @@
-//! Constants that quotients and products have too many of: `(a x + b)/(c x + d)` is the same for all multiples of
-//! its four. Factors go into sums whose every term has a constant to take them, and what is left over is made 1.
+//! Removes constants that quotients and products have too many of: `(a x + b)/(c x + d)` is the
+//! same for all multiples of its four. A factor moves into a sum whose every term has a constant to
+//! take it, and one of the rest is made 1.
 
 use super::Simplifier;
 use crate::op::Op;
 use crate::program::Arg;
 
-/// What constants are multiplied or divided by.
+/// A scale of constants.
 #[derive(Clone, Copy)]
 enum Scale {
     By(f32),
@@ -13,7 +14,7 @@ enum Scale {
 }
 
 impl Scale {
-    /// A constant scaled, unless that is no number of ordinary size.
+    /// Scales a constant; none if the result is not of ordinary size.
     fn of(self, value: f32) -> Option<f32> {
         let scaled = match self {
             Scale::By(factor) => value * factor,
@@ -23,17 +24,17 @@ impl Scale {
     }
 }
 
-/// So that scaling back and forth loses nothing.
+/// Sizes within which scaling back and forth loses nothing: far from `f32`'s limits. By hand.
 const ORDINARY: std::ops::RangeInclusive<f32> = 1e-9..=1e9;
 
 impl Simplifier {
-    /// `c S`, the factor taken into a sum `S`.
+    /// Takes the factor of `c S` into the sum `S`.
     pub(super) fn scaled_sum(&mut self, sum: Arg, c: Arg) -> Option<Arg> {
         let scale = Scale::By(self.constant(c)?);
         self.takes_into_sum(sum, scale).then(|| self.scaled(sum, scale))
     }
 
-    /// `c (N/D)`, the factor taken into either sum.
+    /// Takes the factor of `c (N/D)` into either sum.
     pub(super) fn scaled_quotient(&mut self, quotient: Arg, c: Arg) -> Option<Arg> {
         let value = self.constant(c)?;
         if !self.is_read_once(quotient) {
@@ -56,7 +57,7 @@ impl Simplifier {
         None
     }
 
-    /// `c/D` as the inverse of a sum, and `N/D` with a factor of 1 in either sum.
+    /// Writes `c/D` as the inverse of a sum, and `N/D` with a factor of 1 in either sum.
     pub(super) fn normal_quotient(&mut self, numerator: Arg, divisor: Arg) -> Option<Arg> {
         if let Some(value) = self.constant(numerator) {
             let scale = Scale::Over(value);
@@ -74,7 +75,7 @@ impl Simplifier {
         })
     }
 
-    /// `N M` of two sums with a factor of 1 in one of them.
+    /// Writes a product of two sums with a factor of 1 in one of them.
     pub(super) fn normal_product(&mut self, x: Arg, y: Arg) -> Option<Arg> {
         for (one, other) in [(x, y), (y, x)] {
             let Some(value) = self.leading([one]) else { continue };
@@ -92,7 +93,7 @@ impl Simplifier {
         is_sum && self.takes(arg, scale)
     }
 
-    /// Whether every term has a constant to scale, and nothing else reads it.
+    /// Returns true if every term has a constant to scale, and nothing else reads it.
     fn takes(&self, arg: Arg, scale: Scale) -> bool {
         if self.takes_as_constant(arg, scale) {
             return true;
@@ -100,7 +101,7 @@ impl Simplifier {
         let Some(instr) = self.definition(arg).filter(|_| self.is_read_once(arg)) else {
             return false;
         };
-        // Constants alone have no finite value here, or they were folded.
+        // Constants alone have no finite value here, or they would have been folded.
         if instr.args().iter().all(|&arg| self.constant(arg).is_some()) {
             return false;
         }
@@ -116,7 +117,7 @@ impl Simplifier {
         self.constant(arg).is_some_and(|value| scale.of(value).is_some())
     }
 
-    /// What [`Simplifier::takes`] a scale, scaled.
+    /// Scales a value for which [`Simplifier::takes`] is true.
     fn scaled(&mut self, arg: Arg, scale: Scale) -> Arg {
         if let Some(scaled) = self.constant(arg).and_then(|value| scale.of(value)) {
             return self.number(scaled);
@@ -131,15 +132,16 @@ impl Simplifier {
         self.build(instr.op(), &args)
     }
 
-    /// The factor of a term in one of the sums that is best made 1: the first that is an instruction by itself,
-    /// or else the first.
+    /// Returns the factor, of a term in one of the sums, that is best made 1: the first that is an
+    /// instruction by itself, or else the first.
     fn leading<const N: usize>(&self, sums: [Arg; N]) -> Option<f32> {
         let mut best = None;
         sums.iter().for_each(|&sum| self.find_factor(sum, &mut best));
         best.map(|(factor, _)| factor)
     }
 
-    /// Looks for a better factor among the terms; with each, whether a product is saved where it is 1.
+    /// Looks for a better factor among the terms; each comes with whether making it 1 saves a
+    /// product.
     fn find_factor(&self, arg: Arg, best: &mut Option<(f32, bool)>) {
         let instr = self.definition(arg).filter(|_| self.is_read_once(arg));
         let Some(instr) = instr else { return };

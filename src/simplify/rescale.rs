@@ -1,40 +1,44 @@
-//! Programs over columns in other units.
+//! Rewrites programs for columns in other units.
 //!
-//! A power of two that an input or output is multiplied by is moved through the program into constants that are
-//! there, exactly; only where none is, a multiplication is added.
+//! A power of two that multiplies an input or output moves through the program into existing
+//! constants, exactly; a multiplication is added only where there is none.
 
 use crate::op::{MAX_ARITY, Op};
 use crate::program::{Arg, Draft, use_counts};
 
-/// How an input of the given program is made of the column in the new unit: `(column + offset) · 2^−exponent`.
+/// The scale of an input: the given program's input is `(column + offset) · 2^−exponent`.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct InputScale {
+    /// In the column's unit.
     pub offset: f32,
+    /// Of the unit, a power of two.
     pub exponent: i32,
 }
 
-/// Where inputs are brought to the given program's unit.
+/// The place where inputs are brought to the given program's unit.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Placement {
     /// Once, before anything else: best where an input is multiplied with itself and others.
     First,
-    /// In the constants that it meets: best where it meets few, and each is multiplied by one.
+    /// In the constants that it meets: best where it meets few, each being multiplied by one.
     Constants,
 }
 
-/// So many inputs in other units may be multiplied with each other before one is brought to the given program's unit; those of
-/// a large exponent count twice, since the square of what is small among them is no normal `f32`. Apart from
-/// that the units themselves decide nothing, so that neither do they of the cost.
+/// The most inputs in other units that may be multiplied with each other before one is brought to
+/// the given program's unit. The units decide nothing else, so costs do not depend on them. By
+/// hand, unmeasured.
 const MAX_DEGREE: u32 = 2;
+/// Inputs of a larger exponent count twice: the square of a small value would be no normal `f32`.
 const LARGE_EXPONENT: i32 = 31;
 
-/// A power of two that is an `f32`, beyond all that units are made of.
+/// The largest exponent of a factor: its power and inverse are normal `f32`s.
 const MAX_EXPONENT: i32 = 126;
 
-/// The program over columns in other units: it reads the columns that `inputs` tells of, and its outputs are the
-/// given program's times two to the power of `outputs`. Where no offset is given and nothing leaves `f32`, each
-/// instruction's value is the given program's to the bit, but for a power of two. Which instructions are added
-/// depends on the program's structure alone, and on which exponents are zero or large.
+/// Rewrites the program to read the columns that `inputs` describes; its outputs are the given
+/// program's times two to the power of `outputs`. If no offset is given and nothing leaves `f32`,
+/// each instruction's value is the given program's to the bit, except for a power of two. Which
+/// instructions are added depends only on the program's structure, and on which exponents are zero
+/// or large.
 ///
 /// # Panics
 /// If there are fewer scales than inputs or outputs.
@@ -71,12 +75,13 @@ pub fn rescaled(
     work.new
 }
 
-/// A value of the new program: that of the given one times two to the power of `exponent`.
+/// A value of the new program: the given program's times two to the power of `exponent`.
 #[derive(Clone, Copy, Debug)]
 struct Scaled {
     arg: Arg,
     exponent: i32,
-    /// How many inputs in other units are multiplied in it: constants that take them in are as large.
+    /// The number of inputs in other units that it is a product of: constants that take them in are
+    /// as large.
     degree: u32,
 }
 
@@ -86,21 +91,22 @@ impl Default for Scaled {
     }
 }
 
-/// What an operation makes of powers of two that its arguments are multiplied by.
+/// The effect of an operation on powers of two that its arguments are multiplied by.
 enum Scaling {
-    /// Arguments are multiplied, the first two; the third, if any, is added.
+    /// The first two arguments are multiplied; the third, if any, is added.
     Product,
     Quotient,
     Reciprocal,
-    /// The result is multiplied as the arguments at these places are, which must be alike; others not at all.
+    /// The result is multiplied as the arguments at these places, which must be alike; others must
+    /// not be multiplied.
     Linear(&'static [usize]),
-    /// The result does not change where the arguments at these places are multiplied alike.
+    /// The result does not change if the arguments at these places are multiplied alike.
     Invariant(&'static [usize]),
     /// The exponent is halved, with this sign.
     Root(i32),
-    /// As linear in the last two, where the first two are alike.
+    /// Linear in the last two, if the first two are alike.
     Choice,
-    /// None of that.
+    /// No argument may be multiplied.
     None,
 }
 
@@ -142,7 +148,8 @@ struct Work<'a> {
     offsets: Vec<(u16, Arg)>,
     /// Values that were multiplied by a power of two.
     multiples: Vec<(Arg, i32, Arg)>,
-    /// Whether each new instruction's result is read once in the end, so that it may still change.
+    /// For each new instruction, true if its result is read once in the end, so that it may still
+    /// change.
     read_once: Vec<bool>,
 }
 
@@ -223,7 +230,7 @@ impl Work<'_> {
         Scaled { arg: self.push(op, &args[..values.len()], read_once), exponent, degree }
     }
 
-    /// The exponent of a product, or of one with a summand, which is brought to it.
+    /// Returns the exponent of a product, or of one with a summand, which is brought to it.
     fn product(&mut self, values: &mut [Scaled]) -> i32 {
         let (factors, summand) = values.split_at_mut(2);
         self.bound_degree(factors);
@@ -243,8 +250,8 @@ impl Work<'_> {
         exponent
     }
 
-    /// Of two factors that together are of too high a degree, multiplies first those by their unit for which no
-    /// constant can take it in.
+    /// Brings factors whose degree together is too high to their unit: first those that no constant
+    /// can take in.
     fn bound_degree(&mut self, factors: &mut [Scaled]) {
         for can_change in [false, true] {
             for i in 0..factors.len() {
@@ -259,7 +266,7 @@ impl Work<'_> {
         }
     }
 
-    /// Brings all but those at the given places to zero.
+    /// Brings the values at other than the given places to exponent zero.
     fn bring_others(&mut self, values: &mut [Scaled], places: &[usize]) {
         for (place, value) in values.iter_mut().enumerate() {
             if !places.contains(&place) {
@@ -268,7 +275,8 @@ impl Work<'_> {
         }
     }
 
-    /// Brings the values at the given places to one exponent: that of one which cannot be changed for free.
+    /// Brings the values at the given places to one exponent: that of a value which cannot be
+    /// changed for free.
     fn bring_alike(&mut self, values: &mut [Scaled], places: &[usize]) -> i32 {
         let fixed = places.iter().map(|&place| values[place]).find(|v| !self.can_change(v.arg));
         let exponent = fixed.unwrap_or(values[places[0]]).exponent;
@@ -280,7 +288,7 @@ impl Work<'_> {
         *value = Scaled { arg: self.brought(*value, exponent), exponent, ..*value };
     }
 
-    /// The value times a power of two that makes its exponent this.
+    /// Multiplies the value so that its exponent becomes this.
     fn brought(&mut self, value: Scaled, exponent: i32) -> Arg {
         let change = exponent - value.exponent;
         if change == 0 {
@@ -319,7 +327,7 @@ impl Work<'_> {
         }
     }
 
-    /// Whether a value can be multiplied by any power of two by changing constants alone.
+    /// Returns true if changing constants alone can multiply a value by any power of two.
     fn can_change(&self, arg: Arg) -> bool {
         let i = match arg {
             Arg::Const(_) => return true,
@@ -344,7 +352,7 @@ impl Work<'_> {
         }
     }
 
-    /// The value multiplied so, where that can be done.
+    /// Multiplies a value for which [`Work::can_change`] is true by changing constants.
     fn changed(&mut self, arg: Arg, by: i32) -> Arg {
         if let Some(value) = self.constant(arg) {
             return self.new.constant((f64::from(value) * f64::from(by).exp2()) as f32);

@@ -1,14 +1,15 @@
-//! The rewriting rules. `c` stands for constants, `x`, `y` for anything.
+//! The rewriting rules; `c` stands for constants, `x` and `y` for anything.
 
 use super::Simplifier;
 use crate::op::Op;
 use crate::program::Arg;
 
-/// Constants that are added may be as many times as large as what is left of them.
+/// The most that an added constant may exceed what is left of it, so that at most 4 bits are lost.
+/// By hand, unmeasured.
 const FAR: f32 = 16.0;
 
 impl Simplifier {
-    /// What `op` on `args` is by one of the rules; the arguments are simplified already.
+    /// Rewrites `op` on `args` by one of the rules; the arguments are simplified already.
     pub(super) fn rewrite(&mut self, op: Op, args: &[Arg]) -> Option<Arg> {
         let (x, y) = (args[0], *args.get(1).unwrap_or(&args[0]));
         match op {
@@ -29,7 +30,7 @@ impl Simplifier {
         }
     }
 
-    /// `|−x|`; `|c x|` as `|c| |x|`, so that constants meet.
+    /// `|−x|` as `|x|`; `|c x|` as `|c| |x|`, so that constants meet.
     fn absolute(&mut self, x: Arg) -> Option<Arg> {
         if let Some(inner) = self.negated(x) {
             return Some(self.build(Op::Abs, &[inner]));
@@ -40,7 +41,7 @@ impl Simplifier {
         Some(self.build(Op::Mul, &[inner, c]))
     }
 
-    /// Functions of their inverse.
+    /// Cancels functions of their inverse.
     fn inverse(&mut self, op: Op, x: Arg) -> Option<Arg> {
         let inner = self.definition(x)?;
         let (y, _) = self.operands(x, inner.op())?;
@@ -104,8 +105,8 @@ impl Simplifier {
         Some(self.build(Op::Sub, &[c, right]))
     }
 
-    /// `c₁ (x + c₂) + c` as `c₁ x + c₃`, where nothing else reads what that takes apart: but where `c₂` brings what
-    /// lies far from zero near to it, digits would be lost.
+    /// `c₁ (x + c₂) + c` as `c₁ x + c₃`, if nothing else reads the parts. Where `c₂` brings values
+    /// far from zero near to it, digits would be lost: then not.
     fn scaled_sum_with_constant(&mut self, product: Arg, c: Arg) -> Option<Arg> {
         let (sum, c1) = self.constant_last(product, Op::Mul)?;
         if !self.is_read_once(product) || !self.is_read_once(sum) {
@@ -131,7 +132,7 @@ impl Simplifier {
         })
     }
 
-    /// The operands of `arg`, an `op` of something and a constant, the constant second.
+    /// Returns the operands of `arg`, an `op` of something and a constant, the constant second.
     fn constant_last(&self, arg: Arg, op: Op) -> Option<(Arg, Arg)> {
         let (a, b) = self.operands(arg, op)?;
         match (self.constant(a), self.constant(b)) {
@@ -168,7 +169,7 @@ impl Simplifier {
         None
     }
 
-    /// `−(c x)` as `(−c) x`, where nothing else reads the product.
+    /// `−(c x)` as `(−c) x`, if nothing else reads the product.
     fn negated_product(&mut self, arg: Arg) -> Option<Arg> {
         let (inner, c) = self.constant_last(arg, Op::Mul).filter(|_| self.is_read_once(arg))?;
         let c = self.fold(Op::Neg, &[c])?;
@@ -286,7 +287,8 @@ impl Simplifier {
         self.normal_quotient(x, y)
     }
 
-    /// `1/exp2(x)` as `exp2(−x)`, where nothing else reads the power: signs are free, an inverse is not.
+    /// `1/exp2(x)` as `exp2(−x)`, if nothing else reads the power: signs are free, an inverse is
+    /// not.
     fn inverse_power(&mut self, power: Arg) -> Option<Arg> {
         let inner = self.definition(power).filter(|_| self.is_read_once(power))?;
         if !matches!(inner.op(), Op::Exp2 | Op::Exp) {

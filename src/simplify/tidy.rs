@@ -1,11 +1,11 @@
-//! The form in which a formula is shown: the same bits, fewer signs.
+//! Brings a formula to the form in which it is shown: the same bits, fewer signs.
 
 use crate::op::Op;
 use crate::program::{Arg, Draft, Instr, Program};
 
-/// Writes sums with negative constants, and with products and quotients of them, as differences, and the other
-/// way round: `x + −c` as `x − c`, `−c·x + y` as `y − c·x`, `y − −c/x` as `y + c/x`. Signs
-/// are exact in IEEE-754, so every value keeps its bits.
+/// Writes sums with negative constants, or with products and quotients of them, as differences, and
+/// vice versa: `x + −c` as `x − c`, `−c·x + y` as `y − c·x`, `y − −c/x` as `y + c/x`. Signs are
+/// exact in IEEE-754, so every value keeps its bits.
 pub fn tidy(program: &Program) -> Program {
     let mut draft = program.clone().into_draft();
     for i in 0..draft.instrs.len() {
@@ -24,8 +24,8 @@ pub fn tidy(program: &Program) -> Program {
     program.or_longer(draft)
 }
 
-/// `−arg`, if `arg` is a negative constant, or a product or a quotient of one that only instruction `reader` reads;
-/// the product is changed in place.
+/// Negates `arg`, if it is a negative constant, or a product or quotient of one that only
+/// instruction `reader` reads; the product is changed in place.
 fn positive(draft: &mut Draft, arg: Arg, reader: usize) -> Option<Arg> {
     match arg {
         Arg::Input(_) => None,

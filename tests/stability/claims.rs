@@ -118,8 +118,8 @@ fn either_side_may_be_a_number_or_neither() {
 fn what_is_no_claim_is_refused_where_it_is_wrong() {
     for (text, column, expected) in [
         ("scale <= 1", 1, "a claim is `name: expression <= expression`"),
-        ("2: scale <= 1", 1, "no name"),
-        ("range: scale <= 1", 1, "no name"),
+        ("2: scale <= 1", 1, "cannot name a claim"),
+        ("range: scale <= 1", 1, "cannot name a claim"),
         ("a: scale + 1", 13, "one `<=` or `>=`"),
         ("a: 0 <= scale <= 1", 15, "one `<=` or `>=`"),
         ("a: scale + bais <= 1", 12, "did you mean `bias`?"),
@@ -127,10 +127,10 @@ fn what_is_no_claim_is_refused_where_it_is_wrong() {
         ("a: scale <= ", 13, "expected an expression"),
         ("a: <= scale", 4, "expected an expression"),
         ("a: scale <= $k", 13, "free constant"),
-        ("a: scale <= 1/0", 10, "no number"),
-        ("a: x <= 1", 3, "it says nothing of an output; there is scale, bias"),
+        ("a: scale <= 1/0", 10, "not a finite number"),
+        ("a: x <= 1", 3, "it is about no output; the outputs are scale, bias"),
         ("a: scale*k <= 1 for k in 1..0", 21, "as in `f0 in 0..1`"),
-        ("a: scale*k <= 1 for x in 0..1", 21, "`x` is there already"),
+        ("a: scale*k <= 1 for x in 0..1", 21, "`x` is already in use"),
         ("a: scale <= 1; b: bias <= 1", 14, "one comparison"),
     ] {
         let error = Claim::parse(text, &names()).unwrap_err();

@@ -5,30 +5,33 @@ use crate::op::Op;
 use crate::program::{Arg, Program};
 use std::ops::Range;
 
-/// What is asserted of a formula's outputs, wherever its inputs are in their domain.
+/// An assertion about a formula's outputs, for all inputs in the domain.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Claim {
+    /// The word by which verdicts name it.
     pub name: String,
-    /// What is bounded, as text: one side of the comparison, or the difference of both.
+    /// The bounded expression, as text: one side of the comparison, or the difference of both.
     pub expression: String,
-    /// The same over inputs, outputs and variables: one output.
+    /// The same over inputs, outputs and variables, in that order; one output.
     pub program: Program,
-    /// What it must not leave; one end is infinite.
+    /// The range that its value must not leave; one end is infinite.
     pub range: [f64; 2],
-    /// What else it is of, each anything in a range.
+    /// Further variables, each with the range of its values.
     pub variables: Vec<(String, [f32; 2])>,
 }
 
-/// What every formula is asked, whatever else is claimed of it.
+/// The names of the claims that every formula is checked for.
 pub const ALWAYS_ASKED: [&str; 2] = ["finite", "range"];
 
+/// In bytes. By hand: more than a comparison needs.
 const LONGEST: usize = 1000;
+/// By hand: proofs subdivide each variable's range.
 const MAX_VARIABLES: usize = 4;
 const SHAPE: &str = "a claim is `name: expression <= expression`, as in `energy: f0*scale + bias <= 1 for f0 in 0..1`";
 
 impl Claim {
-    /// Reads `name: expression <= expression` (or `>=`) over columns, and behind it `for x in 0..1` with a
-    /// comma between several where it holds for each value of a variable.
+    /// Parses `name: expression <= expression` (or `>=`) over columns, and after it `for x in
+    /// 0..1`, with commas between several, where it holds for each value of a variable.
     ///
     /// # Errors
     /// [`ParseError`] says where the text is wrong, and what may stand there.
@@ -47,7 +50,7 @@ impl Claim {
         let outputs = names.inputs.len()..names.inputs.len() + names.outputs.len();
         if !reads(&left, &outputs) && !reads(&right, &outputs) {
             let outputs = names.outputs.join(", ");
-            return wrong(colon + 1, format!("it says nothing of an output; there is {outputs}"));
+            return wrong(colon + 1, format!("it is about no output; the outputs are {outputs}"));
         }
         let [left_text, right_text] = sides.each_ref().map(|side| text[side.clone()].trim());
         let (expression, program, limit, is_least) = match (constant(&left), constant(&right)) {
@@ -59,19 +62,19 @@ impl Claim {
             }
         };
         if !limit.is_finite() {
-            return wrong(sides[0].end, "what it is compared with is no number".into());
+            return wrong(sides[0].end, "the bound is not a finite number".into());
         }
         let name = Claim::name_of(text).to_owned();
         let range = if is_least { [limit, f64::INFINITY] } else { [f64::NEG_INFINITY, limit] };
         Ok(Claim { name, expression, program, range, variables })
     }
 
-    /// The name before the colon.
+    /// Returns the name before the colon.
     pub fn name_of(text: &str) -> &str {
         text.split(':').next().unwrap_or_default().trim()
     }
 
-    /// Adds a claim over these columns to others, in place of one of the same name.
+    /// Adds a claim over these columns, in place of one of the same name.
     ///
     /// # Errors
     /// As [`Claim::parse`].
@@ -83,23 +86,24 @@ impl Claim {
     }
 }
 
-/// The place of the colon behind a name that a claim can have.
+/// Checks the name, and returns the place of the colon after it.
 fn check_name(text: &str) -> Result<usize, ParseError> {
     let wrong = |at: usize, message: String| Err(ParseError::at(text, at, message));
     if let Some(at) = text.find(['\n', ';', '#']).or((text.len() > LONGEST).then_some(0)) {
-        return wrong(at, format!("a claim is one comparison, of {LONGEST} bytes at most"));
+        return wrong(at, format!("a claim is one comparison of at most {LONGEST} bytes"));
     }
     let name = Claim::name_of(text);
     match text.find(':') {
         None => wrong(0, SHAPE.into()),
         Some(colon) if is_identifier(name) && !ALWAYS_ASKED.contains(&name) => Ok(colon),
-        Some(_) => {
-            wrong(0, format!("`{name}` is no name for a claim: give a word but finite and range"))
-        }
+        Some(_) => wrong(
+            0,
+            format!("`{name}` cannot name a claim: give a word other than finite and range"),
+        ),
     }
 }
 
-/// The two sides of a comparison, and whether it is the left that is the larger.
+/// Splits a comparison into its two sides; true if the left one is the larger.
 fn comparison(text: &str, whole: Range<usize>) -> Result<([Range<usize>; 2], bool), ParseError> {
     let signs = [("<=", false), (">=", true), ("≤", false), ("≥", true)].into_iter();
     let mut signs: Vec<(Range<usize>, bool)> = signs
@@ -118,7 +122,7 @@ fn comparison(text: &str, whole: Range<usize>) -> Result<([Range<usize>; 2], boo
     }
 }
 
-/// One side, read as a formula in which everything stands where it does in the claim.
+/// Parses one side as a formula in which everything stands where it does in the claim.
 fn side(
     text: &str,
     colon: usize,
@@ -144,7 +148,7 @@ fn is_identifier(name: &str) -> bool {
     starts && name.chars().all(|c| c.is_ascii_alphanumeric() || c == '_')
 }
 
-/// What stands behind ` for `: variables and their ranges.
+/// Parses the part after ` for `: variables and their ranges.
 fn variables(text: &str, end: usize, names: &Names) -> Result<Vec<(String, [f32; 2])>, ParseError> {
     let mut variables: Vec<(String, [f32; 2])> = Vec::new();
     let Some(clause) = text[end..].strip_prefix(" for ") else { return Ok(variables) };
@@ -159,12 +163,12 @@ fn variables(text: &str, end: usize, names: &Names) -> Result<Vec<(String, [f32;
         });
         let Some((name, range)) = range else {
             return wrong(
-                "behind `for` stand variables and their ranges, as in `f0 in 0..1`".into(),
+                "expected variables and their ranges after `for`, as in `f0 in 0..1`".into(),
             );
         };
         let columns = names.inputs.iter().chain(&names.outputs);
         if columns.chain(variables.iter().map(|(known, _)| known)).any(|known| *known == name) {
-            return wrong(format!("`{name}` is there already; name the variable otherwise"));
+            return wrong(format!("`{name}` is already in use; give the variable another name"));
         }
         if variables.len() == MAX_VARIABLES {
             return wrong(format!("more than {MAX_VARIABLES} variables"));
@@ -180,7 +184,7 @@ fn reads(program: &Program, inputs: &Range<usize>) -> bool {
     args.into_iter().any(|arg| matches!(arg, Arg::Input(i) if inputs.contains(&usize::from(*i))))
 }
 
-/// The value of what reads nothing.
+/// Returns the value of a program that reads no input.
 fn constant(program: &Program) -> Option<f64> {
     let value = || program.evaluate(&vec![0.0; program.inputs])[0];
     (!reads(program, &(0..program.inputs))).then(|| value().into())

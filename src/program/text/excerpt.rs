@@ -1,10 +1,10 @@
-//! A place in a text, shown to who wrote it.
+//! Shows a place in a text to its author.
 
-/// Characters of a line that are shown around a place in it.
+/// Characters of a line that are shown around a place: about a terminal's line.
 const SHOWN: usize = 120;
 
-/// The part of the line around a column (from 1), and below it a mark. What would steer a terminal is
-/// shown as `�`.
+/// Shows the part of the line around a column (from 1), with a mark below it. Characters that would
+/// steer a terminal are shown as `�`.
 pub(crate) fn pointed(line: &str, column: usize) -> String {
     let before = column.saturating_sub(1);
     let start = if before < SHOWN { 0 } else { before - SHOWN / 2 };
@@ -16,7 +16,7 @@ pub(crate) fn pointed(line: &str, column: usize) -> String {
     format!("  {left}{}{right}\n  {indent}^", shown.trim_end())
 }
 
-/// The character, or `�` in place of one that is no part of a line or turns its direction.
+/// Returns the character, or `�` if it ends the line or turns its direction.
 pub(crate) fn plain(c: char) -> char {
     let turns =
         matches!(c, '\u{200e}' | '\u{200f}' | '\u{202a}'..='\u{202e}' | '\u{2066}'..='\u{2069}');
@@ -27,7 +27,7 @@ pub(crate) fn plain(c: char) -> char {
     }
 }
 
-/// Line and column, both from 1, of the byte `offset` of a text, and the line.
+/// Returns the line and column, both from 1, of the byte `offset`, and the text of the line.
 pub(crate) fn place(text: &str, offset: usize) -> (usize, usize, &str) {
     let before = &text[..offset];
     let line_start = before.rfind('\n').map_or(0, |i| i + 1);

@@ -1,4 +1,4 @@
-//! Formula text to tokens.
+//! Splits formula text into tokens.
 
 use super::ParseError;
 use super::excerpt::plain;
@@ -15,7 +15,7 @@ pub(super) enum Token {
     End,
 }
 
-/// The tokens, each with the byte offset at which it starts.
+/// Returns the tokens, each with its byte offset.
 pub(super) fn tokens(text: &str) -> Result<Vec<(usize, Token)>, ParseError> {
     let mut tokens = Vec::new();
     let mut depth = 0usize;
@@ -100,6 +100,6 @@ fn number(text: &str, start: usize, end: usize) -> Result<f32, ParseError> {
             start,
             format!("{digits} is too large for a 32-bit float (at most 3.4e38)"),
         )),
-        Err(_) => Err(ParseError::at(text, start, format!("`{digits}` is no number"))),
+        Err(_) => Err(ParseError::at(text, start, format!("`{digits}` is not a number"))),
     }
 }

@@ -1,4 +1,4 @@
-//! Formula text: `name = expression` statements, and back.
+//! Parses and prints formula text: `name = expression` statements.
 //!
 //! ```
 //! use lgp::program::{Names, parse, print};
@@ -26,11 +26,14 @@ use serde::{Deserialize, Serialize};
 /// The names of a program's inputs and outputs, in column order.
 #[derive(Clone, Debug, PartialEq, Eq, Default, Serialize, Deserialize)]
 pub struct Names {
+    /// The inputs' names.
     pub inputs: Vec<String>,
+    /// The outputs' names.
     pub outputs: Vec<String>,
 }
 
 impl Names {
+    /// Collects the names.
     pub fn new<S: Into<String>>(
         inputs: impl IntoIterator<Item = S>,
         outputs: impl IntoIterator<Item = S>,

@@ -1,4 +1,4 @@
-//! Tokens to a program, by recursive descent.
+//! Parses tokens to a program, by recursive descent.
 
 use super::Names;
 use super::excerpt::{place, pointed};
@@ -8,7 +8,7 @@ use crate::program::{Arg, Draft, Instr, Program};
 use crate::suggest::did_you_mean;
 use std::collections::{HashMap, HashSet};
 
-/// Text that is no formula.
+/// The reason why a text is not a formula, and the place.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[error("formula, line {line}, column {column}: {message}\n{}", pointed(.source_line, *.column))]
 pub struct ParseError {
@@ -16,8 +16,9 @@ pub struct ParseError {
     pub line: usize,
     /// In characters, from 1.
     pub column: usize,
+    /// What is wrong, and what may stand there.
     pub message: String,
-    /// The line of text in which it stands.
+    /// The line of text.
     pub source_line: String,
 }
 
@@ -29,34 +30,39 @@ impl ParseError {
     }
 }
 
-/// A constant that the user leaves to be fitted: `$name`.
+/// A constant that is left for fitting: `$name`.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct FreeConstant {
+    /// The name after the `$`.
     pub name: String,
-    /// Its place in the constant table.
+    /// Its index in the constant table.
     pub index: u16,
 }
 
-/// Which names a text may use.
+/// The names that a text may use.
 #[derive(Clone, Debug)]
 pub enum Scope<'a> {
-    /// Inputs and outputs are those of a dataset.
+    /// The inputs and outputs of a dataset.
     Dataset(&'a Names),
-    /// Unknown names are inputs, in order of appearance; the outputs are those named, or the
-    /// last statement's name where none is.
-    Open { outputs: &'a [String] },
+    /// Unknown names are inputs, in order of appearance.
+    Open {
+        /// The outputs' names; if empty, the last statement's name is the only output.
+        outputs: &'a [String],
+    },
 }
 
-/// What a text says.
+/// A text's program and names.
 #[derive(Clone, Debug)]
 pub struct Parsed {
+    /// The program, including statements that no output reads.
     pub program: Program,
+    /// The names of its columns.
     pub names: Names,
     /// The `$name` constants, in order of appearance.
     pub free: Vec<FreeConstant>,
 }
 
-/// The program of a formula over the given columns.
+/// Parses a formula over the given columns.
 ///
 /// # Errors
 /// [`ParseError`] says where the text is wrong, and what was probably meant.
@@ -75,15 +81,21 @@ pub fn parse(text: &str, names: &Names) -> Result<Program, ParseError> {
     }
 }
 
-/// The program of a formula in which unknown names are inputs; see [`Scope::Open`].
+/// Parses a formula in which unknown names are inputs; see [`Scope::Open`].
+///
+/// # Errors
+/// As [`parse`].
 pub fn parse_open(text: &str, outputs: &[String]) -> Result<Parsed, ParseError> {
     parse_template(text, Scope::Open { outputs })
 }
 
-/// The program of a text that may hold free constants; they start at 1.
+/// Parses a text that may hold free constants; these start at 1.
+///
+/// # Errors
+/// As [`parse`].
 pub fn parse_template(text: &str, scope: Scope) -> Result<Parsed, ParseError> {
     if text.len() > MAX_FORMULA {
-        let message = format!("{} bytes are more than a formula has (at most 1 MiB)", text.len());
+        let message = format!("a formula of {} bytes is too long (at most 1 MiB)", text.len());
         return Err(ParseError::at(text, 0, message));
     }
     let names = match scope {
@@ -111,7 +123,8 @@ pub fn parse_template(text: &str, scope: Scope) -> Result<Parsed, ParseError> {
     parser.finish()
 }
 
-/// More text is refused before it is read.
+/// The most bytes of a formula; longer text is refused unread. By hand: more than the largest
+/// program needs.
 pub const MAX_FORMULA: usize = 1 << 20;
 
 fn first_places(names: &[String]) -> HashMap<String, usize> {
@@ -129,7 +142,7 @@ struct Parser<'a> {
     depth: usize,
     draft: Draft,
     names: Names,
-    /// The inputs' places in `names`, and the outputs.
+    /// The inputs' places in `names`.
     inputs: HashMap<String, usize>,
     outputs: HashSet<String>,
     open: bool,
@@ -137,17 +150,18 @@ struct Parser<'a> {
     last_assigned: Option<String>,
     free: Vec<FreeConstant>,
     free_places: HashMap<String, Arg>,
-    /// Numbers by their bits, and results by what computes them.
+    /// Numbers by their bits.
     constants: HashMap<u32, Arg>,
+    /// Results by the instruction that computes them.
     results: HashMap<Instr, Arg>,
 }
 
-/// Parentheses, calls and signs that may stand inside one another.
+/// The deepest nesting of parentheses, calls and signs: each level takes some of the stack.
 const MAX_DEPTH: usize = 200;
 
 type Parse<T> = Result<T, ParseError>;
 
-/// The first of the names, as many as one reads.
+/// Lists the first few names.
 fn listed(names: &[String]) -> String {
     const SHOWN: usize = 20;
     let shown = names[..names.len().min(SHOWN)].join(", ");
@@ -254,7 +268,7 @@ impl Parser<'_> {
         }
     }
 
-    /// Where every nesting passes through.
+    /// Counts the depth: every nesting passes through here.
     fn negation(&mut self) -> Parse<Arg> {
         if self.depth == MAX_DEPTH {
             return self.error(
@@ -300,7 +314,7 @@ impl Parser<'_> {
         self.repeated_product(base, exponent, at)
     }
 
-    /// The literal after `^`, itself perhaps raised to a power: `^` is right-associative.
+    /// Parses the literal after `^`, itself perhaps raised to a power: `^` is right-associative.
     fn exponent(&mut self) -> Parse<f32> {
         let mut tower = Vec::new();
         loop {
@@ -444,12 +458,12 @@ impl Parser<'_> {
         Ok(args)
     }
 
-    /// Whether a program can hold one more.
+    /// Checks that a program can hold one more.
     fn room(&self, count: usize, what: &str, at: usize) -> Parse<()> {
         if count < usize::from(u16::MAX) {
             return Ok(());
         }
-        self.error(at, format!("more than {} {what}; a formula has no more", u16::MAX))
+        self.error(at, format!("too many {what}; a formula has at most {}", u16::MAX))
     }
 
     fn constant(&mut self, value: f32, at: usize) -> Parse<Arg> {
@@ -475,7 +489,7 @@ impl Parser<'_> {
         Ok(arg)
     }
 
-    /// The operation's result; one that the formula has computed already is shared.
+    /// Applies an operation, or returns the result if the formula has computed it already.
     fn apply(&mut self, op: Op, args: &[Arg]) -> Parse<Arg> {
         let instr = Instr::new(op, args);
         if let Some(&known) = self.results.get(&instr) {

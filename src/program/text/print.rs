@@ -1,4 +1,4 @@
-//! A program to formula text.
+//! Prints programs as formula text.
 
 use super::Names;
 use crate::op::Op;
@@ -10,7 +10,7 @@ use crate::program::{Arg, Program, use_counts};
 const PARENTHESES: [&str; 2] = ["(", ")"];
 const SIGNS: [&str; 2] = [" + ", " - "];
 
-/// The operators; what is none is written as a function.
+/// The operators; any other operation is written as a function.
 fn spelling(op: Op) -> Option<Spelling> {
     Some(match op {
         Op::Add => sum("{a+} + {b*}"),
@@ -23,9 +23,9 @@ fn spelling(op: Op) -> Option<Spelling> {
     })
 }
 
-/// The formula of a program's effective code: a statement for each shared result and each
-/// output, separated by `; `. Parsing it gives a program with the same effective code, up to
-/// the order of independent instructions.
+/// Prints a program's effective code: a statement for each shared result and each output, separated
+/// by `; `. Parsing it gives a program with the same effective code, up to the order of independent
+/// instructions.
 ///
 /// # Panics
 /// If `names` does not have a name for each input and output.
@@ -48,8 +48,8 @@ pub fn print(program: &Program, names: &Names) -> String {
     printer.statements.join("; ")
 }
 
-/// The expression of a program's first output, without temporaries: what is shared is written out
-/// as often as it is read, so the text can be exponentially longer than the program.
+/// Prints a program's first output as one expression, without temporaries: a shared result is
+/// written out each time it is read, so the text can be exponentially longer than the program.
 ///
 /// # Panics
 /// If `names` does not have a name for each input.
@@ -69,14 +69,15 @@ pub fn print_expression(program: &Program, names: &Names) -> String {
     printer.argument(program.outputs[0]).text
 }
 
-/// The shortest decimal that reads back as `value`.
+/// Returns the shortest decimal that reads back as `value`.
 pub fn format_constant(value: f32) -> String {
     let plain = format!("{value}");
     let scientific = format!("{value:e}");
     if scientific.len() + 2 < plain.len() { scientific } else { plain }
 }
 
-/// The shortest decimal that reads back as `value`: as an `f32` where it is one, else as an `f64`.
+/// Returns the shortest decimal that reads back as `value`: as an `f32` where it is one, else as an
+/// `f64`.
 ///
 /// ```
 /// use lgp::program::shortest;
@@ -96,7 +97,7 @@ pub fn shortest(value: f64) -> String {
 struct Printer<'a> {
     program: &'a Program,
     names: &'a Names,
-    /// For each instruction, how a reader of its result writes it.
+    /// For each instruction, the text that a reader of its result writes.
     texts: Vec<Written>,
     statements: Vec<String>,
     temporaries: usize,
@@ -135,7 +136,7 @@ impl Printer<'_> {
         }
     }
 
-    /// Outputs that are inputs, constants, or another output's result.
+    /// Adds the outputs that are inputs, constants, or another output's result.
     fn remaining_outputs(&mut self) {
         for (o, &arg) in self.program.outputs.iter().enumerate() {
             let first = self.program.outputs.iter().position(|&other| other == arg);
@@ -161,7 +162,7 @@ impl Printer<'_> {
         let mut args: Vec<Written> = instr.args().iter().map(|&arg| self.argument(arg)).collect();
         match (op, instr.args()) {
             (Op::Mul, [a, b]) if a == b => return written(&power("{a!}^2"), &args),
-            // `2*x` reads better than `x*2`, and means the same bits.
+            // `2*x` reads better than `x*2`, and has the same bits.
             (Op::Mul, &[_, b]) if is_constant(b) => args.swap(0, 1),
             // A bare number after the sign would read as a negative constant.
             (Op::Neg, &[a]) if is_constant(a) && args[0].negated.is_none() => {
