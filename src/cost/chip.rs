@@ -1,4 +1,5 @@
-//! A chip's profile: what its instructions cost, and what its compiler merges, from a `.ron` file.
+//! A chip's profile, from a `.ron` file: the costs of its instructions, and what its compiler
+//! merges.
 
 use super::form::Lowered;
 use crate::grammar::{FileError, file};
@@ -8,49 +9,49 @@ use std::collections::BTreeMap;
 
 pub(super) const KIND: &str = "GPU profile";
 
-/// The most pipes that a chip may have.
+/// The most pipes of a chip. By hand: the built-in chips have fewer.
 pub(super) const PIPES: usize = 4;
 
-/// Slots taken on each pipe.
+/// The slots taken on each pipe.
 pub(super) type Slots = [f64; PIPES];
 
-/// What one chip's operations cost.
+/// The costs of one chip's operations.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Chip {
     pub name: String,
     pub description: String,
-    /// The pipes' names; they work beside each other.
+    /// The pipes' names; they work in parallel.
     pub pipes: Vec<String>,
     pub merges: Merges,
-    /// By operation.
+    /// The cost of each operation.
     costs: Vec<Timing>,
-    /// Of a minimum of three.
+    /// The cost of a minimum of three.
     three: Timing,
-    /// Of a constant that is no part of an instruction.
+    /// The slots of a constant that is not part of an instruction.
     pub literal: Option<Slots>,
-    /// What all this was read from.
+    /// The file that all this was read from.
     pub file: File,
 }
 
-/// Slots, and cycles until the result can be read.
+/// The slots, and the cycles until the result can be read.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(super) struct Timing {
     pub slots: Slots,
     pub latency: f64,
 }
 
-/// What the compiler merges, besides products with sums, signs of arguments, and square roots with
+/// The merges of a compiler, besides products with sums, signs of arguments, and square roots with
 /// their inverse.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(super) struct Merges {
     /// The instruction that is a minimum or maximum of three, or a clamp between constants.
     pub min3: Option<String>,
-    /// Whether twice, four times and half an arithmetic result are free.
+    /// True if a factor of 2, 4 or ½ on an arithmetic result is free.
     pub scaled_results: bool,
-    /// Whether the product of a quotient merges with a sum.
+    /// True if the product of a quotient merges with a sum.
     pub quotients: bool,
-    /// Whose results saturate for nothing.
+    /// The operations whose results saturate for nothing.
     pub saturates: Saturates,
 }
 
@@ -60,7 +61,7 @@ pub(super) enum Saturates {
     Arithmetic,
 }
 
-/// What a chip's file says.
+/// The content of a chip's file.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(super) struct File {
@@ -86,7 +87,7 @@ struct Instruction {
 }
 
 impl Chip {
-    /// A chip from the text of a `.ron` file at `path`.
+    /// Parses the text of a `.ron` file at `path`.
     pub fn parse(path: &str, text: &str) -> Result<Chip, FileError> {
         let file: File = file::parse(KIND, path, text)?;
         Chip::of(file).map_err(|reason| FileError::Content {
@@ -136,17 +137,17 @@ impl Chip {
         })
     }
 
-    /// What its file says, but for what it is called.
+    /// Returns the file's content without name and description.
     pub fn nameless(&self) -> File {
         File { name: String::new(), description: String::new(), ..self.file.clone() }
     }
 
-    /// The cost of an operation by itself, with nothing merged.
+    /// Returns the cost of an operation by itself, with nothing merged.
     pub fn of_op(&self, op: Op) -> &Timing {
         &self.costs[op as usize]
     }
 
-    /// The cost of an instruction.
+    /// Returns the cost of an instruction.
     pub fn of_form(&self, form: Lowered) -> Timing {
         match form {
             Lowered::Merged => Timing::default(),
@@ -164,7 +165,7 @@ impl Chip {
     }
 }
 
-/// Cycles for these slots: the busiest pipe decides.
+/// Returns the cycles for these slots: those of the busiest pipe.
 pub(super) fn busiest(slots: &Slots) -> f64 {
     slots.iter().fold(0.0, |most, &slots| f64::max(most, slots))
 }

@@ -1,12 +1,12 @@
-//! What a compiler makes of each instruction: some become others, some vanish into those that
-//! read them, or into a modifier of what they read.
+//! Lowers instructions as a compiler does: some become others, some merge into their readers, or
+//! into a modifier of their argument.
 
 use super::CostScratch;
 use super::chip::{Merges, Saturates};
 use crate::op::Op;
 use crate::program::{Arg, Draft, use_counts};
 
-/// What a compiler makes of an instruction.
+/// The lowered form of an instruction.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Lowered {
     /// Nothing: an intron, a part of each of its readers, or a modifier.
@@ -21,7 +21,7 @@ pub(super) enum Lowered {
     Quotient { inverse: Option<Op>, product: bool },
 }
 
-/// Finds the form of each instruction; afterwards `scratch` has the uses and the forms.
+/// Finds the form of each instruction, and leaves the uses and the forms in `scratch`.
 pub(super) fn find_forms(draft: &Draft, merges: &Merges, scratch: &mut CostScratch) {
     use_counts(draft, &mut scratch.uses);
     absorb_products(draft, merges, scratch);
@@ -38,7 +38,7 @@ fn form(draft: &Draft, i: usize, merges: &Merges, scratch: &mut CostScratch) -> 
     let instr = &draft.instrs[i];
     let args = instr.args();
     let absorbed = scratch.is_absorbed(i);
-    // Without a finite value, or it were folded.
+    // Its value is not finite, or it would have been folded.
     if args.iter().all(|&arg| is_any_constant(arg)) {
         return Lowered::Merged;
     }
@@ -63,8 +63,8 @@ fn form(draft: &Draft, i: usize, merges: &Merges, scratch: &mut CostScratch) -> 
     }
 }
 
-/// The operation that gives the inverse of a value; none if it is known already. The inverse of a
-/// root that is only divided by is the other root.
+/// Returns the operation that computes the inverse of a value; none if it is known already. The
+/// inverse of a root that is only divided by is the other root.
 fn inverse(draft: &Draft, of: Arg, scratch: &mut CostScratch) -> Option<Op> {
     let of = unsigned(draft, of);
     if scratch.inverses.contains(&of) {
@@ -80,7 +80,7 @@ fn inverse(draft: &Draft, of: Arg, scratch: &mut CostScratch) -> Option<Op> {
     }
 }
 
-/// What an argument is but for its sign.
+/// Returns an argument without its sign.
 fn unsigned(draft: &Draft, arg: Arg) -> Arg {
     match arg {
         Arg::Result(i) if draft.instrs[usize::from(i)].op() == Op::Neg => {
@@ -97,7 +97,7 @@ fn quotient(inverse: Option<Op>, product: bool) -> Lowered {
     }
 }
 
-/// Powers that are not worth a logarithm; of the whole exponents only 2 and 4 are expanded.
+/// Lowers powers that need no logarithm; of whole exponents only 2 and 4 are expanded.
 fn power(draft: &Draft, args: &[Arg]) -> Lowered {
     let constant = |arg: Arg| match arg {
         Arg::Const(c) => Some(draft.consts[usize::from(c)]),
@@ -108,13 +108,13 @@ fn power(draft: &Draft, args: &[Arg]) -> Lowered {
         (_, Some(4.0)) => Lowered::Products(2),
         (_, Some(0.5)) => Lowered::As(Op::Sqrt),
         (_, Some(-0.5)) => Lowered::As(Op::Rsqrt),
-        // exp2(y log₂ c), the logarithm known: as many instructions as e^y.
+        // exp2(y log₂ c) with the logarithm known: as many instructions as e^y.
         (Some(_), _) => Lowered::As(Op::Exp),
         _ => Lowered::As(Op::Pow),
     }
 }
 
-/// A minimum of a minimum that nothing else reads is one of three; so is a clamp.
+/// Merges a minimum of a minimum that nothing else reads into one of three; likewise a clamp.
 fn extremum(draft: &Draft, op: Op, args: &[Arg], scratch: &mut CostScratch) -> Lowered {
     for (arg, other) in [(args[0], args[1]), (args[1], args[0])] {
         let Arg::Result(j) = arg else { continue };
@@ -136,8 +136,8 @@ fn extremum(draft: &Draft, op: Op, args: &[Arg], scratch: &mut CostScratch) -> L
     Lowered::As(op)
 }
 
-/// Counts how many sums absorb each product (a quotient is one, with an inverse), and how often a
-/// result is divided by. A sum absorbs one product, perhaps negated.
+/// Counts how many sums absorb each product (a quotient is one, with an inverse), and how often
+/// each result is divided by. A sum absorbs one product, perhaps negated.
 fn absorb_products(draft: &Draft, merges: &Merges, scratch: &mut CostScratch) {
     let CostScratch { uses, absorbed, divides, .. } = scratch;
     for counts in [&mut *absorbed, divides] {
@@ -163,7 +163,7 @@ fn absorb_products(draft: &Draft, merges: &Merges, scratch: &mut CostScratch) {
     }
 }
 
-/// The product that `arg` is, perhaps negated.
+/// Returns the index of the product that `arg` is, perhaps negated.
 fn product(draft: &Draft, arg: Arg, merges: &Merges, uses: &[u32]) -> Option<usize> {
     let Arg::Result(i) = arg else { return None };
     let i = usize::from(i);
@@ -197,7 +197,8 @@ fn is_root(draft: &Draft, arg: Arg) -> bool {
     matches!(arg, Arg::Result(i) if matches!(draft.instrs[usize::from(i)].op(), Op::Sqrt | Op::Rsqrt))
 }
 
-/// Whether the sign of `arg` can move into the arguments of its instruction, which nothing else reads.
+/// Returns true if the sign of `arg` can move into the arguments of its instruction, which nothing
+/// else reads.
 fn takes_sign(draft: &Draft, arg: Arg, uses: &[u32]) -> bool {
     let Arg::Result(i) = arg else { return false };
     let instr = draft.instrs[usize::from(i)];
@@ -205,8 +206,8 @@ fn takes_sign(draft: &Draft, arg: Arg, uses: &[u32]) -> bool {
     uses[usize::from(i)] == 1 && (is_arithmetic(instr.op()) || inverts_no_root)
 }
 
-/// Whether `arg` is the result of an instruction that nothing else reads, so that a clamp of it to
-/// [0, 1] is part of the instruction.
+/// Returns true if `arg` is the result of an instruction that nothing else reads, so that a clamp
+/// of it to [0, 1] is part of the instruction.
 fn saturates_free(draft: &Draft, arg: Arg, merges: &Merges, uses: &[u32]) -> bool {
     let Arg::Result(i) = arg else { return false };
     let instr = &draft.instrs[usize::from(i)];
@@ -219,8 +220,7 @@ fn saturates_free(draft: &Draft, arg: Arg, merges: &Merges, uses: &[u32]) -> boo
         }
 }
 
-/// Whether a product is that of 2, 4 or ½ and the result of an arithmetic instruction that nothing
-/// else reads.
+/// Returns true if a product is that of 2, 4 or ½ and an arithmetic result that nothing else reads.
 fn scales_a_sum(draft: &Draft, args: &[Arg], scratch: &CostScratch) -> bool {
     [(args[0], args[1]), (args[1], args[0])].into_iter().any(|(arg, factor)| {
         let Arg::Result(i) = arg else { return false };

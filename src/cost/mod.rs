@@ -1,14 +1,24 @@
-//! What a program costs on a GPU: cycles of its effective code, registers, the critical path.
+//! Costs programs on a GPU: cycles of their effective code, registers, the critical path.
 //!
-//! Shared results are paid once. What compilers merge is not paid at all: a product that only
-//! sums read, signs of arguments, saturation of a result, the square root below a
-//! fraction line, minima of three where the chip has them. Nor are constants and what does nothing, which
-//! folding leaves out ([`crate::simplify`]). Nothing else is assumed of them: the folded program is costed as
-//! it stands, and what algebra can do beyond that is to be done before.
+//! Shared results are paid once. Whatever compilers merge is free: a product that only sums read,
+//! signs of arguments, saturation of a result, the square root below a fraction line, minima of
+//! three where the chip has them. So are constants and operations that do nothing, which folding
+//! removes ([`crate::simplify`]). The folded program is costed as it stands: any further algebra
+//! must be done before.
 //!
-//! A chip has pipes that work beside each other; an instruction takes slots on one or more, and
-//! the busiest decides. So cycles are for many threads or long code, which hide latency;
-//! the critical path is what one thread alone would wait.
+//! A chip has pipes that work in parallel; an instruction takes slots on one or more, and the
+//! busiest pipe decides. Cycles are thus for many threads or long code, which hide latency; the
+//! critical path is the wait of one thread alone.
+//!
+//! ```
+//! use lgp::cost::Profile;
+//! use lgp::program::{Names, parse};
+//!
+//! let program = parse("y = exp2(x) + x*x", &Names::new(["x"], ["y"]))?;
+//! let cost = Profile::find("gcn")?.cost(&program);
+//! assert_eq!((cost.cycles, cost.registers), (5.0, 1));
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
 
 mod chip;
 mod form;
@@ -28,13 +38,13 @@ use std::collections::BTreeMap;
 /// Scratch memory of [`Profile::cycles`].
 #[derive(Clone, Debug, Default)]
 pub struct CostScratch {
-    /// How often each result is read.
+    /// The number of readers of each result.
     uses: Vec<u32>,
-    /// How many sums absorb each product.
+    /// The number of sums that absorb each product.
     absorbed: Vec<u32>,
-    /// How often each result is divided by.
+    /// The number of divisions by each result.
     divides: Vec<u32>,
-    /// Values whose inverse is known.
+    /// The values whose inverse is known.
     inverses: Vec<Arg>,
     forms: Vec<Lowered>,
     simplifier: Simplifier,
@@ -42,41 +52,44 @@ pub struct CostScratch {
 }
 
 impl CostScratch {
-    /// Whether each reader of the result absorbs it.
+    /// Returns true if each reader of the result absorbs it.
     fn is_absorbed(&self, i: usize) -> bool {
         self.absorbed[i] == self.uses[i]
     }
 }
 
-/// What a program costs on one GPU.
+/// The cost of a program by a profile.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Cost {
+    /// The profile's name.
     pub gpu: String,
-    /// Slots of the busiest pipe.
+    /// Cycles: the slots of the busiest pipe.
     pub cycles: f64,
-    /// That pipe.
+    /// The name of that pipe.
     pub limit: String,
-    /// The most results alive at once; inputs and constants are not counted.
+    /// The most results alive at once, without inputs and constants.
     pub registers: u32,
     /// Cycles from the inputs to the last output, if nothing else runs.
     pub critical_path: f64,
-    /// By operation, as written; and `constant`, on a chip where constants take instructions.
+    /// The shares by operation, as written; on a chip where constants take instructions, also by
+    /// `constant`.
     pub ops: BTreeMap<&'static str, OpCost>,
 }
 
 /// An operation's share of the cost.
 #[derive(Clone, Debug, Default, PartialEq, Serialize)]
 pub struct OpCost {
+    /// The number of such operations.
     pub count: u32,
-    /// Of these, those that are no instruction of their own.
+    /// The number of these that merge into others.
     pub merged: u32,
-    /// By pipe, those that are not zero.
+    /// The slots by pipe, without zeros.
     pub slots: BTreeMap<String, f64>,
 }
 
 impl Profile {
-    /// The cycles of a draft's effective code, folded; for a mix the weighted mean. Equal constants count as
-    /// different ones, since they may be fitted apart.
+    /// Returns the cycles of a draft's effective code, folded; for a mix, the weighted mean. Equal
+    /// constants count as different ones, since they may be fitted apart.
     pub fn cycles(&self, draft: &Draft, scratch: &mut CostScratch) -> f64 {
         if Simplifier::is_folded(draft) {
             return self.cycles_as_written(draft, scratch);
@@ -88,7 +101,8 @@ impl Profile {
         cycles
     }
 
-    /// The cycles of a draft's effective code with nothing folded, whatever its constants happen to be.
+    /// Returns the cycles of a draft's effective code with nothing folded, whatever the constants'
+    /// values.
     pub fn cycles_as_written(&self, draft: &Draft, scratch: &mut CostScratch) -> f64 {
         let weighted = |(share, chip): &(f64, Chip)| {
             find_forms(draft, &chip.merges, scratch);
@@ -97,8 +111,8 @@ impl Profile {
         self.chips.iter().map(weighted).sum()
     }
 
-    /// The cost of a draft's effective code, folded; for a mix the weighted means, but the most registers,
-    /// and the operations on its first GPU.
+    /// Returns the cost of a draft's effective code, folded; for a mix, the weighted means, the
+    /// most registers, and the operations on its first GPU.
     pub fn cost(&self, draft: &Draft) -> Cost {
         let folded = folded_draft(draft);
         let mut costs = self.chips.iter().map(|(share, chip)| (*share, chip_cost(&folded, chip)));
@@ -114,13 +128,13 @@ impl Profile {
         whole
     }
 
-    /// The cycles of an operation by itself, with nothing merged.
+    /// Returns the cycles of an operation by itself, with nothing merged.
     pub fn of(&self, op: Op) -> f64 {
         self.chips.iter().map(|(share, chip)| share * busiest(&chip.of_op(op).slots)).sum()
     }
 }
 
-/// The slots of all instructions.
+/// Sums the slots of all instructions.
 fn slots(draft: &Draft, chip: &Chip, scratch: &CostScratch) -> Slots {
     let mut total = Slots::default();
     for &form in &scratch.forms {
@@ -138,8 +152,8 @@ fn add(total: &mut Slots, slots: &Slots, times: f64) {
     }
 }
 
-/// The constants that need an instruction of their own on a chip that has room for them in sums
-/// only.
+/// Counts the constants that need an instruction of their own, on a chip that has room for them in
+/// sums only.
 fn literals(draft: &Draft, scratch: &CostScratch) -> u32 {
     let mut count = 0;
     for (instr, _) in draft.instrs.iter().zip(&scratch.uses).filter(|(_, uses)| **uses > 0) {

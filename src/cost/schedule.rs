@@ -1,4 +1,4 @@
-//! When results are there, and how many are alive at once.
+//! Schedules instructions: when results are ready, and how many are alive at once.
 
 use super::CostScratch;
 use super::chip::Chip;
@@ -6,7 +6,7 @@ use super::form::Lowered;
 use crate::op::Op;
 use crate::program::{Arg, Draft};
 
-/// The longest chain of instructions that wait for each other, in cycles.
+/// Returns the longest chain of instructions that wait for each other, in cycles.
 pub(super) fn critical_path(draft: &Draft, chip: &Chip, scratch: &CostScratch) -> f64 {
     let mut ready: Vec<f64> = Vec::with_capacity(draft.instrs.len());
     for (i, instr) in draft.instrs.iter().enumerate() {
@@ -24,9 +24,9 @@ pub(super) fn critical_path(draft: &Draft, chip: &Chip, scratch: &CostScratch) -
     draft.outputs.iter().map(at).fold(0.0, f64::max)
 }
 
-/// The most results alive at once, in the better of two orders: that of the program, and one that
-/// always takes the instruction that leaves fewest alive. A result may take the place of an
-/// argument that is read for the last time.
+/// Returns the most results alive at once, in the better of two orders: the program's, and one that
+/// always takes the instruction that leaves fewest alive. A result may replace an argument that is
+/// read for the last time.
 pub(super) fn registers(draft: &Draft, scratch: &CostScratch) -> u32 {
     let graph = Graph::of(draft, scratch);
     let as_written = graph.peak(|_, ready| ready[0]);
@@ -37,9 +37,10 @@ pub(super) fn registers(draft: &Draft, scratch: &CostScratch) -> u32 {
     as_written.min(frugal)
 }
 
-/// The instructions that a compiler leaves.
+/// The instructions that a compiler keeps.
 struct Graph {
-    /// For each instruction of the draft that is one, whose results it reads, each once.
+    /// For each instruction of the draft that is kept, the instructions whose results it reads,
+    /// each once.
     reads: Vec<Option<Vec<usize>>>,
     /// For each, the instructions that read its result.
     readers: Vec<Vec<usize>>,
@@ -76,7 +77,8 @@ impl Graph {
         Graph { reads, readers, outputs }
     }
 
-    /// The most results alive, taking next what `choose` says of the instructions that are ready.
+    /// Returns the most results alive if `choose` picks the next of the instructions that are
+    /// ready.
     fn peak(&self, choose: impl Fn(&Alive, &[usize]) -> usize) -> u32 {
         let mut alive = Alive::new(self);
         let mut ready: Vec<usize> = (0..self.reads.len())
@@ -104,7 +106,7 @@ impl Graph {
     }
 }
 
-/// Adds the results that `arg` is, merged instructions replaced by what they read.
+/// Adds the results that `arg` is made of: merged instructions are replaced by what they read.
 fn expand(draft: &Draft, scratch: &CostScratch, arg: Arg, results: &mut Vec<usize>) {
     let mut left = vec![arg];
     while let Some(arg) = left.pop() {
@@ -122,11 +124,11 @@ fn expand(draft: &Draft, scratch: &CostScratch, arg: Arg, results: &mut Vec<usiz
     }
 }
 
-/// What is alive after some instructions.
+/// The results that are alive after some instructions.
 struct Alive {
-    /// How many results each instruction still waits for.
+    /// The number of results that each instruction still waits for.
     missing: Vec<usize>,
-    /// How many instructions and outputs have still to read each result.
+    /// The number of instructions and outputs that have still to read each result.
     readers: Vec<u32>,
     count: u32,
 }
@@ -140,7 +142,7 @@ impl Alive {
         Alive { missing, readers, count: 0 }
     }
 
-    /// The arguments that an instruction is the last to read.
+    /// Counts the arguments that an instruction is the last to read.
     fn dying(&self, graph: &Graph, i: usize) -> u32 {
         graph.reads_of(i).iter().filter(|&&j| self.readers[j] == 1).count() as u32
     }
