@@ -137,10 +137,9 @@ fn constants_and_what_does_nothing_are_free() {
 }
 
 #[test]
-fn the_built_in_profiles_are_those() {
-    let names: Vec<&str> = Profile::built_in().collect();
-    assert_eq!(names, ["gcn", "rdna2", "rdna3", "turing", "ampere", "valhall"]);
-    for name in names {
+fn profiles_are_called_like_their_files_the_default_first() {
+    assert_eq!(Profile::built_in().next(), Some("gcn"));
+    for name in Profile::built_in() {
         assert_eq!(Profile::find(name).unwrap().name, name);
     }
 }

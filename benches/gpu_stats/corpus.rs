@@ -34,12 +34,14 @@ impl Corpus {
         Corpus { rows: lines.map(row).collect(), targets }
     }
 
-    /// The measured column of a target; several targets joined by `+` are pipes beside each
-    /// other, of which the busiest counts.
-    pub fn column(&self, targets: &str) -> Vec<f64> {
-        let place = |target| self.targets.iter().position(|known| known == target);
+    /// The largest of some measured columns, which are pipes beside each other.
+    ///
+    /// # Panics
+    /// If the table lacks one.
+    pub fn busiest(&self, columns: &[String]) -> Vec<f64> {
+        let place = |column| self.targets.iter().position(|known| known == column);
         let places: Vec<usize> =
-            targets.split('+').map(|target| place(target).expect("a target")).collect();
+            columns.iter().map(|column| place(column).expect("a column of the table")).collect();
         let busiest = |row: &Row| places.iter().map(|&i| row.measured[i]).fold(0.0, f64::max);
         self.rows.iter().map(busiest).collect()
     }

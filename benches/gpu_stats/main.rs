@@ -120,16 +120,6 @@ fn child() -> Done<()> {
     Ok(())
 }
 
-/// Columns of tables, and the profiles that answer to them.
-const COLUMNS: [(&str, &str); 6] = [
-    ("gcn", "gcn_vega10"),
-    ("rdna2", "rdna2_navi21"),
-    ("rdna3", "rdna3_navi31"),
-    ("turing", "nvidia_sm80"),
-    ("ampere", "nvidia_sm86"),
-    ("valhall", "mali_g78_fma+mali_g78_cvt+mali_g78_sfu"),
-];
-
 fn compare(tables: &[String]) -> Done<()> {
     for table in tables {
         let corpus = Corpus::parse(&std::fs::read_to_string(table)?);
@@ -140,16 +130,17 @@ fn compare(tables: &[String]) -> Done<()> {
             "| profile | compiled for | Spearman | Pearson | simplified first | counting nodes |"
         );
         println!("|---|---|---|---|---|---|");
-        for (gpu, target) in COLUMNS {
-            if !target.split('+').all(|one| corpus.targets.iter().any(|known| known == one)) {
+        for gpu in Profile::built_in() {
+            let profile = Profile::find(gpu)?;
+            let columns = profile.evidence().map_or(&[][..], |evidence| &evidence.columns);
+            if columns.is_empty() || !columns.iter().all(|one| corpus.targets.contains(one)) {
                 continue;
             }
-            let profile = Profile::find(gpu)?;
-            let (ours, theirs) = (cycles(&profile, &programs), corpus.column(target));
+            let (ours, theirs) = (cycles(&profile, &programs), corpus.busiest(columns));
             let after = cycles(&profile, &simple);
             println!(
                 "| {gpu} | {} | {:.4} | {:.4} | {:.4} / {:.4} | {:.4} / {:.4} |",
-                target.replace("+mali_g78", ","),
+                columns.join(", "),
                 spearman(&ours, &theirs),
                 pearson(&ours, &theirs),
                 spearman(&after, &theirs),

@@ -73,8 +73,20 @@ pub(super) struct File {
     merges: Merges,
     #[serde(default)]
     literal: Option<String>,
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub evidence: Option<Evidence>,
     /// The instructions that each operation becomes.
     operations: BTreeMap<String, BTreeMap<String, u32>>,
+}
+
+/// What a profile was held against: how it ranks formulas that a compiler for the chip has compiled.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Evidence {
+    /// Columns of `tests/reference/gpu_corpus.csv`; of several the largest counts.
+    pub columns: Vec<String>,
+    /// The least rank correlation (Spearman) that the profile must have with them.
+    pub rank_correlation: f64,
 }
 
 /// A kind of instruction.
@@ -139,7 +151,8 @@ impl Chip {
 
     /// Returns the file's content without name and description.
     pub fn nameless(&self) -> File {
-        File { name: String::new(), description: String::new(), ..self.file.clone() }
+        let (name, description) = (String::new(), String::new());
+        File { name, description, evidence: None, ..self.file.clone() }
     }
 
     /// Returns the cost of an operation by itself, with nothing merged.

@@ -25,6 +25,7 @@ mod form;
 mod profile;
 mod schedule;
 
+pub use chip::Evidence;
 pub use profile::Profile;
 
 use crate::op::Op;

@@ -1,18 +1,11 @@
 //! GPU profiles: one chip, or a weighted mix of several.
 
-use super::chip::{Chip, File, KIND};
+use super::chip::{Chip, Evidence, File, KIND};
 use crate::grammar::{FileError, file};
 use serde::{Deserialize, Serialize};
 
-/// The chips that come with the program, by name.
-const BUILT_IN: [(&str, &str); 6] = [
-    ("gcn", include_str!("../../grammar/gpu/gcn.ron")),
-    ("rdna2", include_str!("../../grammar/gpu/rdna2.ron")),
-    ("rdna3", include_str!("../../grammar/gpu/rdna3.ron")),
-    ("turing", include_str!("../../grammar/gpu/turing.ron")),
-    ("ampere", include_str!("../../grammar/gpu/ampere.ron")),
-    ("valhall", include_str!("../../grammar/gpu/valhall.ron")),
-];
+/// The chips that come with the program, by name: the files of `grammar/gpu`.
+const BUILT_IN: &[(&str, &str)] = include!(concat!(env!("OUT_DIR"), "/profiles.rs"));
 
 /// What formulas cost on a GPU, or on a weighted mix of GPUs. Serialised, it is what its files say, and
 /// read back by the same rules.
@@ -69,6 +62,14 @@ impl Profile {
         Ok(Profile::single(Chip::parse(path, text)?))
     }
 
+    /// Returns what a profile of one chip was held against.
+    pub fn evidence(&self) -> Option<&Evidence> {
+        match self.chips.as_slice() {
+            [(_, chip)] => chip.file.evidence.as_ref(),
+            _ => None,
+        }
+    }
+
     fn single(chip: Chip) -> Profile {
         Profile {
             name: chip.name.clone(),
@@ -111,7 +112,7 @@ impl TryFrom<Kept> for Profile {
 }
 
 fn chip(name_or_path: &str) -> Result<Chip, FileError> {
-    Chip::parse(name_or_path, &file::find(KIND, name_or_path, &BUILT_IN)?)
+    Chip::parse(name_or_path, &file::find(KIND, name_or_path, BUILT_IN)?)
 }
 
 /// The names of a mix and their weights.

@@ -12,12 +12,8 @@ use std::collections::BTreeMap;
 
 const KIND: &str = "grammar";
 
-/// The grammars that come with the program, by name.
-const BUILT_IN: [(&str, &str); 3] = [
-    ("shader", include_str!("../../grammar/shader.ron")),
-    ("exp2", include_str!("../../grammar/exp2.ron")),
-    ("polynomial", include_str!("../../grammar/polynomial.ron")),
-];
+/// The grammars that come with the program, by name: the files of `grammar`.
+const BUILT_IN: &[(&str, &str)] = include!(concat!(env!("OUT_DIR"), "/grammars.rs"));
 
 /// The most instructions that a grammar may allow. By hand.
 pub const MAX_INSTRUCTIONS: usize = 128;
@@ -66,7 +62,7 @@ impl Grammar {
     /// # Errors
     /// An unknown name; a file that cannot be read or is not a grammar.
     pub fn find(name_or_path: &str) -> Result<Grammar, FileError> {
-        Grammar::parse(name_or_path, &file::find(KIND, name_or_path, &BUILT_IN)?)
+        Grammar::parse(name_or_path, &file::find(KIND, name_or_path, BUILT_IN)?)
     }
 
     /// Returns a built-in grammar by name, without opening a file.

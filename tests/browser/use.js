@@ -25,7 +25,7 @@
     const [axis, error] = document.querySelectorAll("#controls select");
     const labels = () => [...document.querySelectorAll("#front-plot text")].map((text) => text.textContent).join("|");
     const before = labels();
-    axis.value = 2; axis.dispatchEvent(new Event("change"));
+    axis.value = 3; axis.dispatchEvent(new Event("change"));
     seen.profile = labels() !== before && labels().includes("rdna3");
     error.value = 1; error.dispatchEvent(new Event("change"));
     seen.maximum = labels().includes("maximum error");
