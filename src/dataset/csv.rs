@@ -41,7 +41,7 @@ impl Table {
     /// Reads a table as [`import_csv`] does; it has at least one row.
     ///
     /// # Errors
-    /// Those of [`import_csv`] about the file and its cells.
+    /// As [`import_csv`], about the file and its cells.
     pub fn read(path: &Path) -> Result<Table, Error> {
         Table::parse(path, &read_text(path)?)
     }
@@ -49,7 +49,7 @@ impl Table {
     /// Parses the text of a table; errors name `path`.
     ///
     /// # Errors
-    /// Those of [`Table::read`] about the content.
+    /// As [`Table::read`], about the content.
     pub fn parse(path: &Path, text: &str) -> Result<Table, Error> {
         parse(path, text)
     }
@@ -57,7 +57,7 @@ impl Table {
     /// Makes a dataset of a table, as [`import_csv`] does.
     ///
     /// # Errors
-    /// Those of [`import_csv`] about the columns.
+    /// As [`import_csv`], about the columns.
     pub fn dataset(self, path: &Path, inputs: &InputColumns) -> Result<Dataset, Error> {
         imported(path, self, inputs)
     }

@@ -31,7 +31,7 @@ impl StagedFile {
     /// Writes the content to a temporary in the folder of `path`.
     ///
     /// # Errors
-    /// Those of [`check_replaceable`], and of creating and writing the temporary.
+    /// As [`check_replaceable`]; errors of creating and writing the temporary.
     pub fn new(path: &Path, bytes: &[u8]) -> io::Result<StagedFile> {
         check_replaceable(path)?;
         let folder = match path.parent() {
@@ -59,7 +59,7 @@ impl StagedFile {
     /// Renames it to its destination, replacing what is there.
     ///
     /// # Errors
-    /// Those of renaming.
+    /// Errors of renaming.
     pub fn put_in_place(self) -> io::Result<()> {
         announce("rename", &self.path);
         Ok(self.temporary.persist(&self.path)?)
@@ -77,7 +77,7 @@ fn plain(error: io::Error) -> io::Error {
 /// Removes a file, if it exists.
 ///
 /// # Errors
-/// Those of removing a file that exists.
+/// Errors of removing a file that exists.
 pub fn remove_file(path: &Path) -> io::Result<()> {
     announce("remove", path);
     match std::fs::remove_file(path) {

@@ -70,7 +70,7 @@ impl Dataset {
     /// Parses the bytes of a `.bin` file; errors name `path`.
     ///
     /// # Errors
-    /// Those of [`Dataset::load`] about the content.
+    /// As [`Dataset::load`], about the content.
     pub fn parse(path: &Path, bytes: &[u8]) -> Result<Dataset, Error> {
         let dataset = parse(path, bytes)?;
         dataset.validate_as(path)?;

@@ -98,7 +98,7 @@ pub fn incumbents_file(dataset_path: &Path, dataset: &Dataset) -> Option<PathBuf
 /// none if there is no such file.
 ///
 /// # Errors
-/// Those of [`load_incumbents`].
+/// As [`load_incumbents`].
 pub fn incumbents_for(
     dataset_path: &Path,
     dataset: &Dataset,

@@ -44,7 +44,7 @@ pub fn read_file(path: &Path, most: u64) -> io::Result<Vec<u8>> {
 /// Reads a text in UTF-8 of at most `most` bytes.
 ///
 /// # Errors
-/// Those of [`read_file`]; bytes that are not UTF-8.
+/// As [`read_file`]; bytes that are not UTF-8.
 pub fn read_text(path: &Path, most: u64) -> io::Result<String> {
     String::from_utf8(read_file(path, most)?).map_err(|error| {
         let before = &error.as_bytes()[..error.utf8_error().valid_up_to()];

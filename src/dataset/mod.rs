@@ -72,11 +72,12 @@ pub struct Split {
     pub columns: Vec<Vec<f32>>,
     /// One weight per row; empty if all are one.
     pub weights: Vec<f32>,
-    /// By output, the error of each row that nobody sees ([`crate::scene::Quantisation`]); empty if
+    /// The error of each row that nobody sees ([`crate::scene::Quantisation`]), by output; empty if
     /// all errors count.
     pub dead_zone: Vec<Vec<f32>>,
-    /// By output, the standard error of each row's value, as a simulation or an instrument states
-    /// it; empty if values are exact to the rounding of `f32`. Smaller differences decide nothing.
+    /// The standard error of each row's value, as a simulation or an instrument states it, by
+    /// output; empty if values are exact to the rounding of `f32`. Smaller differences decide
+    /// nothing.
     pub standard_errors: Vec<Vec<f32>>,
     /// The points along each input axis, the first input varying slowest, if the rows are a full
     /// regular grid; empty otherwise.

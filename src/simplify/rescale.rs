@@ -11,7 +11,7 @@ use crate::program::{Arg, Draft, use_counts};
 pub struct InputScale {
     /// In the column's unit.
     pub offset: f32,
-    /// Of the unit, a power of two.
+    /// The unit's exponent.
     pub exponent: i32,
 }
 

@@ -16,7 +16,7 @@ pub struct ParseError {
     pub line: usize,
     /// In characters, from 1.
     pub column: usize,
-    /// What is wrong, and what may stand there.
+    /// The problem, and what may stand there.
     pub message: String,
     /// The line of text.
     pub source_line: String,
