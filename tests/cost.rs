@@ -151,8 +151,8 @@ fn a_mix_is_the_weighted_mean() {
     assert_eq!(mixed, (2.0 * 5.0 + 5.0 + 9.0) / 4.0);
     assert_eq!(cycles_on("gcn:3", text, &["y"]), 5.0);
     for (mix, expected) in [
-        ("gcn:0", "`0` is no positive weight"),
-        ("gcn:2,turing:x", "`x` is no positive weight"),
+        ("gcn:0", "`0` is not a positive weight"),
+        ("gcn:2,turing:x", "`x` is not a positive weight"),
         ("gcn,turin", "did you mean `turing`?"),
         ("gcn,", "no GPU profile is called ``"),
     ] {

@@ -7,25 +7,31 @@ use serde::{Deserialize, Serialize};
 /// The chips that come with the program, by name: the files of `grammar/gpu`.
 const BUILT_IN: &[(&str, &str)] = include!(concat!(env!("OUT_DIR"), "/profiles.rs"));
 
-/// What formulas cost on a GPU, or on a weighted mix of GPUs. Serialised, it is what its files say, and
-/// read back by the same rules.
+/// The costs of formulas on a GPU, or on a weighted mix of GPUs. Serialised as its files' content,
+/// and read back by the same rules.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(into = "Kept", try_from = "Kept")]
 pub struct Profile {
+    /// The chip's name, or the mix as written.
     pub name: String,
+    /// A sentence about it; may be empty.
     pub description: String,
-    /// With their shares of the whole, which sum to 1.
+    /// The chips and their shares of the whole, which sum to 1.
     pub(super) chips: Vec<(f64, Chip)>,
 }
 
 impl Profile {
-    /// The built-in profiles' names.
+    /// Returns the built-in profiles' names.
     pub fn built_in() -> impl Iterator<Item = &'static str> {
         BUILT_IN.iter().map(|(name, _)| *name)
     }
 
-    /// A built-in profile by name, or one from a `.ron` file; or a mix, as in `gcn:2,turing:1`:
-    /// the weighted mean of their cycles.
+    /// Returns a built-in profile by name, or reads one from a `.ron` file; or a mix, as in
+    /// `gcn:2,turing:1`: the weighted mean of their cycles.
+    ///
+    /// # Errors
+    /// An unknown name; a file that cannot be read or is not a profile; a weight that is not
+    /// positive.
     pub fn find(name_or_mix: &str) -> Result<Profile, FileError> {
         if let [single] = parts(name_or_mix)?.as_slice()
             && single.0 == name_or_mix
@@ -44,20 +50,23 @@ impl Profile {
         Ok(Profile { name: name_or_mix.to_owned(), description, chips })
     }
 
-    /// A built-in profile or a mix of such, by name; no file is opened.
+    /// Returns a built-in profile or a mix of such, by name, without opening a file.
     pub fn find_built_in(name_or_mix: &str) -> Option<Profile> {
         let known = |(name, _): &(&str, f64)| BUILT_IN.iter().any(|(known, _)| known == name);
         let only_known = parts(name_or_mix).is_ok_and(|parts| parts.iter().all(known));
         only_known.then(|| Profile::find(name_or_mix).ok()).flatten()
     }
 
-    /// Equal for profiles by which everything costs the same, whatever they are called.
+    /// Returns a hash of all costs, whatever the names.
     pub fn fingerprint(&self) -> String {
         let chips = self.chips.iter().map(|(share, chip)| (*share, chip.nameless()));
         file::fingerprint(&chips.collect::<Vec<_>>())
     }
 
-    /// A profile from the text of a `.ron` file at `path`.
+    /// Parses the text of a `.ron` file at `path`.
+    ///
+    /// # Errors
+    /// A text that is not a profile.
     pub fn parse(path: &str, text: &str) -> Result<Profile, FileError> {
         Ok(Profile::single(Chip::parse(path, text)?))
     }
@@ -85,7 +94,7 @@ impl Profile {
 struct Kept {
     name: String,
     description: String,
-    /// With their shares.
+    /// The chips' files, and their shares.
     chips: Vec<(f64, File)>,
 }
 
@@ -115,7 +124,7 @@ fn chip(name_or_path: &str) -> Result<Chip, FileError> {
     Chip::parse(name_or_path, &file::find(KIND, name_or_path, BUILT_IN)?)
 }
 
-/// The names of a mix and their weights.
+/// Splits a mix into names and weights.
 fn parts(mix: &str) -> Result<Vec<(&str, f64)>, FileError> {
     let weighted = |part| match str::rsplit_once(part, ':') {
         None => Ok((part, 1.0)),
@@ -127,7 +136,7 @@ fn parts(mix: &str) -> Result<Vec<(&str, f64)>, FileError> {
                 kind: KIND,
                 path: mix.to_owned(),
                 reason: format!(
-                    "`{weight}` is no positive weight; a mix is written gcn:2,turing:1"
+                    "`{weight}` is not a positive weight; write a mix as gcn:2,turing:1"
                 ),
             }),
         },

@@ -4,7 +4,7 @@ use super::{Dataset, Error, check_text};
 use crate::program::{Claim, Names};
 use std::path::Path;
 
-/// The most claims of a dataset. By hand: each is proved for each member of a front.
+/// The most claims of a dataset. By hand: each costs a proof.
 const MOST: usize = 64;
 
 impl Dataset {

@@ -8,9 +8,9 @@
 
 use super::{Real, sine_squared};
 
-/// From here on a continued fraction gives Λ: the closed form cancels.
+/// The slope from which on a continued fraction gives Λ: the closed form cancels.
 const FAR: f64 = 2.0;
-/// Terms that bring it to f64's precision from [`FAR`] on.
+/// Enough terms for f64's precision from [`FAR`] on; the tests compare with the integral.
 const TERMS: u32 = 60;
 
 /// Density of microfacet normals per unit solid angle, in 1/sr, such that
@@ -42,13 +42,13 @@ pub fn g1_of_slope<T: Real>(slope: T) -> T {
     T::ONE / (T::ONE + lambda_of_slope(slope))
 }
 
-/// Masking and shadowing as if independent: `G1(v) G1(l)`.
+/// Masking and shadowing, taken as independent: `G1(v) G1(l)`.
 pub fn g2_separable<T: Real>(n_dot_v: T, n_dot_l: T, alpha: T) -> T {
     g1(n_dot_v, alpha) * g1(n_dot_l, alpha)
 }
 
-/// Masking and shadowing correlated through the height of the microfacet:
-/// `1 / (1 + Λ(v) + Λ(l))`; 0 if either cosine is 0.
+/// Masking and shadowing, correlated through the height of the microfacet: `1 / (1 + Λ(v) + Λ(l))`;
+/// 0 if either cosine is 0.
 pub fn g2_correlated<T: Real>(n_dot_v: T, n_dot_l: T, alpha: T) -> T {
     T::ONE / (T::ONE + lambda(n_dot_v, alpha) + lambda(n_dot_l, alpha))
 }
@@ -62,8 +62,7 @@ pub fn g1_rational<T: Real>(cosine: T, alpha: T) -> T {
     c * (T::of(3.535) + T::of(2.181) * c) / (T::ONE + c * (T::of(2.276) + T::of(2.577) * c))
 }
 
-/// The slope of a direction over the width of the slopes: `1 / (α tan)`; Walter
-/// calls it a.
+/// The slope of a direction over the width of the slopes, `1 / (α tan)`; Walter's a.
 pub fn slope<T: Real>(cosine: T, alpha: T) -> T {
     cosine / (alpha * sine_squared(cosine).sqrt())
 }
@@ -75,7 +74,7 @@ fn lambda_of_slope<T: Real>(c: T) -> T {
         return T::HALF * (gauss / (c * root_pi) - c.erfc());
     }
     // erfc(c) = exp(-c²)/√π / (c + K), K = (1/2)/(c + (2/2)/(c + (3/2)/(c + …)))
-    // (Abramowitz & Stegun 7.1.14): what remains of the difference is K.
+    // (Abramowitz & Stegun 7.1.14): the difference is K.
     let fraction =
         (1..=TERMS).rev().fold(T::ZERO, |tail, term| T::of(0.5 * f64::from(term)) / (c + tail));
     T::HALF * gauss / root_pi * (fraction / (c + fraction)) / c

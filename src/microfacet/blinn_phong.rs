@@ -6,8 +6,7 @@
 
 use super::Real;
 
-/// The exponent whose lobe is as wide as a Beckmann lobe: `2 / α² - 2`.
-/// `alpha` in (0, 1].
+/// The exponent of the lobe that is as wide as a Beckmann lobe: `2 / α² - 2`. `alpha` in (0, 1].
 pub fn exponent<T: Real>(alpha: T) -> T {
     T::TWO / (alpha * alpha) - T::TWO
 }
@@ -19,7 +18,7 @@ pub fn distribution<T: Real>(n_dot_h: T, exponent: T) -> T {
     if exponent <= T::ZERO {
         return T::ONE / T::PI;
     }
-    // The logarithm of n·h from its small complement.
+    // ln(n·h) from its small complement.
     let power = (exponent * (n_dot_h - T::ONE).ln_1p()).exp();
     (exponent + T::TWO) / (T::TWO * T::PI) * power
 }

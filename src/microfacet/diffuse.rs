@@ -5,14 +5,14 @@
 
 use super::{Real, fresnel};
 
-/// Lambert's: `1 / π`.
+/// Lambert's lobe: `1 / π`.
 pub fn lambert<T: Real>() -> T {
     T::ONE / T::PI
 }
 
-/// Disney's (Burley, "Physically-Based Shading at Disney", 2012, §5.3), with the
-/// perceptual `roughness` in [0, 1]. Not energy-conserving: its albedo exceeds 1
-/// at grazing on rough surfaces.
+/// Disney's lobe (Burley, "Physically-Based Shading at Disney", 2012, §5.3), with the perceptual
+/// `roughness` in [0, 1]. It does not conserve energy: its albedo exceeds 1 at grazing angles on
+/// rough surfaces.
 pub fn disney<T: Real>(n_dot_l: T, n_dot_v: T, l_dot_h: T, roughness: T) -> T {
     let at_grazing = T::HALF + T::TWO * roughness * l_dot_h * l_dot_h;
     let factor = |cosine| T::ONE + (at_grazing - T::ONE) * fresnel::schlick_weight(cosine);
@@ -39,28 +39,28 @@ pub fn transmission_norm<T: Real>() -> T {
     T::of(1.05) / T::PI
 }
 
-/// A flat Lambertian interior under an interface with Schlick's reflectance, which
-/// light passes twice: `21/(20π) (1 - F0) (1 - (1 - n·l)^5) (1 - (1 - n·v)^5)`.
-/// Its albedo is what the interface does not reflect (Hammon, "PBR Diffuse
-/// Lighting for GGX+Smith Microsurfaces", 2017; Shirley et al., "A Practitioners'
-/// Assessment of Light Reflection Models", 1997).
+/// The lobe of a flat Lambertian interior under an interface with Schlick's reflectance, which
+/// light passes twice: `21/(20π) (1 - F0) (1 - (1 - n·l)^5) (1 - (1 - n·v)^5)`. Its albedo is the
+/// interface's transmittance (Hammon, "PBR Diffuse Lighting for GGX+Smith Microsurfaces", 2017;
+/// Shirley et al., "A Practitioners' Assessment of Light Reflection Models", 1997).
 pub fn under_interface<T: Real>(n_dot_l: T, n_dot_v: T, f0: T) -> T {
     let both = fresnel::schlick_transmission(n_dot_l) * fresnel::schlick_transmission(n_dot_v);
     transmission_norm::<T>() * (T::ONE - f0) * both
 }
 
-/// Hammon's fit to path-traced GGX microsurfaces ("PBR Diffuse Lighting for
-/// GGX+Smith Microsurfaces", 2017): light that was transmitted once and more
-/// often.
+/// Hammon's fit to path-traced GGX microsurfaces ("PBR Diffuse Lighting for GGX+Smith
+/// Microsurfaces", 2017), in 1/sr.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Hammon<T> {
+    /// Light that was transmitted once.
     pub single: T,
+    /// Light that was transmitted more often.
     pub multi: T,
 }
 
 impl<T: Real> Hammon<T> {
-    /// As printed: the smooth part lacks the factor 1 - F0 of
-    /// [`under_interface`]. `n_dot_h` in (0, 1], `alpha` in [0, 1].
+    /// The fit as printed: the smooth part lacks the factor 1 - F0 of [`under_interface`].
+    /// `n_dot_h` in (0, 1], `alpha` in [0, 1].
     pub fn new(n_dot_l: T, n_dot_v: T, n_dot_h: T, l_dot_v: T, alpha: T) -> Hammon<T> {
         let facing = T::HALF + T::HALF * l_dot_v;
         let rough = facing * (T::of(0.9) - T::of(0.4) * facing) * ((T::HALF + n_dot_h) / n_dot_h);

@@ -1,4 +1,4 @@
-//! Reflectance of a smooth interface, unpolarised.
+//! The reflectance of a smooth interface, unpolarised.
 
 use super::{Real, sine_squared};
 

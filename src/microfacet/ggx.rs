@@ -34,13 +34,13 @@ pub fn g1<T: Real>(cosine: T, alpha: T) -> T {
     T::TWO * cosine / (cosine + projected(cosine, alpha))
 }
 
-/// Masking and shadowing as if independent: `G1(v) G1(l)`.
+/// Masking and shadowing, taken as independent: `G1(v) G1(l)`.
 pub fn g2_separable<T: Real>(n_dot_v: T, n_dot_l: T, alpha: T) -> T {
     g1(n_dot_v, alpha) * g1(n_dot_l, alpha)
 }
 
-/// Masking and shadowing correlated through the height of the microfacet:
-/// `1 / (1 + Λ(v) + Λ(l))`; 0 if either cosine is 0. `alpha` in [0, 1].
+/// Masking and shadowing, correlated through the height of the microfacet: `1 / (1 + Λ(v) + Λ(l))`;
+/// 0 if either cosine is 0. `alpha` in [0, 1].
 pub fn g2_correlated<T: Real>(n_dot_v: T, n_dot_l: T, alpha: T) -> T {
     let product = n_dot_v * n_dot_l;
     if product <= T::ZERO {

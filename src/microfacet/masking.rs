@@ -1,4 +1,4 @@
-//! Masking and shadowing that shaders use in place of Smith's exact terms.
+//! Masking and shadowing that shaders use instead of Smith's exact terms.
 
 use super::Real;
 
@@ -12,10 +12,9 @@ pub fn g1_schlick<T: Real>(cosine: T, alpha: T) -> T {
     cosine / (cosine * (T::ONE - k) + k)
 }
 
-/// Hammon's approximation of the height-correlated G2 for GGX ("PBR Diffuse
-/// Lighting for GGX+Smith Microsurfaces", 2017):
-/// `2 n·l n·v / lerp(2 n·l n·v, n·l + n·v, α)`, what [`g1_schlick`]'s Λ gives.
-/// Where that is 0/0 its limit: 1 if α is 0, else 0. `alpha` in [0, 1].
+/// Hammon's approximation of the height-correlated G2 for GGX ("PBR Diffuse Lighting for GGX+Smith
+/// Microsurfaces", 2017): `2 n·l n·v / lerp(2 n·l n·v, n·l + n·v, α)`, which follows from the Λ of
+/// [`g1_schlick`]. Where that is 0/0, its limit: 1 if α is 0, else 0. `alpha` in [0, 1].
 pub fn g2_hammon<T: Real>(n_dot_v: T, n_dot_l: T, alpha: T) -> T {
     if alpha <= T::ZERO {
         return T::ONE;

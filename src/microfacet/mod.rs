@@ -15,7 +15,7 @@
 //! | [`masking`] | cheaper masking and shadowing: Schlick, Hammon, Cook–Torrance |
 //! | [`fresnel`] | reflectance of a smooth interface, exact and approximate |
 //! | [`half_vector`] | half-vectors of reflection and refraction, with their Jacobians |
-//! | [`sampling`] | normals by their distribution or by what is visible of it |
+//! | [`sampling`] | normals by their distribution, or by the visible part of it |
 //! | [`specular`], [`diffuse`] | whole BRDFs and a BTDF |
 
 pub mod beckmann;

@@ -1,3 +1,5 @@
+//! The numbers that scalar terms are computed with.
+
 use std::fmt::{Debug, LowerExp};
 use std::ops::{Add, Div, Mul, Neg, Sub};
 
@@ -13,25 +15,37 @@ pub trait Real:
     + Mul<Output = Self>
     + Div<Output = Self>
 {
+    /// 0
     const ZERO: Self;
+    /// 1
     const ONE: Self;
+    /// 2
     const TWO: Self;
+    /// ½
     const HALF: Self;
+    /// π
     const PI: Self;
 
     /// The nearest number of this precision.
     fn of(value: f64) -> Self;
+    /// The magnitude.
     fn abs(self) -> Self;
+    /// The square root.
     fn sqrt(self) -> Self;
+    /// `e^self`
     fn exp(self) -> Self;
+    /// `self^exponent`
     fn powf(self, exponent: Self) -> Self;
     /// `ln(1 + self)`, accurate near 0.
     fn ln_1p(self) -> Self;
     /// The complementary error function.
     fn erfc(self) -> Self;
+    /// The smaller; the other one if one is NaN.
     fn min(self, other: Self) -> Self;
+    /// The larger; the other one if one is NaN.
     fn max(self, other: Self) -> Self;
 
+    /// `self²`
     fn squared(self) -> Self {
         self * self
     }

@@ -1,6 +1,6 @@
-//! Directions drawn from distributions of normals, from what is visible of them,
-//! and from diffuse lobes. Each function maps uniform numbers in [0, 1)² to a
-//! direction and names its density per unit solid angle.
+//! Draws directions from distributions of normals, from the visible ones among them, and from
+//! diffuse lobes. Each function maps uniform numbers in [0, 1)² to a direction and names its
+//! density per unit solid angle.
 //!
 //! Sources: Walter, Marschner, Li, Torrance, "Microfacet Models for Refraction
 //! through Rough Surfaces", 2007 (eqs. 28, 31, 35); Heitz and d'Eon, "Importance
@@ -33,8 +33,8 @@ pub fn blinn_phong([u, w]: [f64; 2], exponent: f64) -> DVec3 {
 /// GGX normals as v sees them: density [`visible_density`]. v may be below the
 /// horizon, where it sees facets from below. `alpha` in (0, 1].
 pub fn visible_ggx([u, w]: [f64; 2], v: DVec3, alpha: f64) -> DVec3 {
-    // Stretched to α = 1 the visible facets mirror v to a uniform cap of
-    // directions c with c·n > -v·n.
+    // Stretched to α = 1, the visible facets mirror v to a uniform cap of directions c with c·n >
+    // -v·n.
     let v = DVec3::new(alpha * v.x, alpha * v.y, v.z).normalize();
     let height = (1.0 - w) * (1.0 + v.z);
     let z = height - v.z;
@@ -46,8 +46,8 @@ pub fn visible_ggx([u, w]: [f64; 2], v: DVec3, alpha: f64) -> DVec3 {
 /// Beckmann normals as v, above the horizon, sees them: density
 /// [`visible_density`]. `alpha` in (0, 1].
 pub fn visible_beckmann([u, w]: [f64; 2], v: DVec3, alpha: f64) -> DVec3 {
-    // Stretched to α = 1 the slopes across v are Gaussian, and those along v too
-    // but for the weight max(0, v·h).
+    // Stretched to α = 1, the slopes across v are Gaussian, and so are those along v, except for
+    // the weight max(0, v·h).
     let v = DVec3::new(alpha * v.x, alpha * v.y, v.z).normalize();
     let sine = v.truncate().length();
     let along = if sine > 0.0 { v.truncate() / sine } else { glam::DVec2::X };
@@ -95,8 +95,8 @@ pub fn transmitted([u, w]: [f64; 2]) -> DVec3 {
     at_azimuth(u, (1.0 - c * c).sqrt(), c)
 }
 
-/// The slope x whose cumulative density is `u`, for the density
-/// `max(0, cosine - sine x) exp(-x²)`, not normalised.
+/// Returns the slope x whose cumulative density is `u`, for the density `max(0, cosine - sine x)
+/// exp(-x²)`, not normalised.
 fn gaussian_slope(u: f64, cosine: f64, sine: f64) -> f64 {
     const FURTHEST: f64 = 6.5;
     let cumulative = |x: f64| 0.5 * (cosine * libm::erfc(-x) + sine * (-x * x).exp() / PI.sqrt());

@@ -30,7 +30,7 @@ pub fn btdf(l: DVec3, v: DVec3, alpha: f64, eta: f64) -> f64 {
     }
     let h = of_refraction(l, v, eta);
     let (v_dot_h, l_dot_h) = (v.dot(h), l.dot(h));
-    // Facets face v's side of the macrosurface too, and l passes through them.
+    // Facets also face v's side of the macrosurface, and l passes through them.
     if h.z * v.z <= 0.0 || l_dot_h >= 0.0 {
         return 0.0;
     }

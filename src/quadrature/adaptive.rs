@@ -1,3 +1,5 @@
+//! Adaptive subdivision of boxes.
+
 use super::Estimate;
 use super::rule::{Found, Rule};
 use crate::num::CompensatedSum;
@@ -23,20 +25,19 @@ struct Tile<const D: usize> {
 }
 
 impl<'a> Adaptive<'a> {
-    /// Until the estimated error is no more than `tolerance` (absolute), or
-    /// after a million evaluations: then the estimate's error is above it.
+    /// Integrates until the estimated error is no more than `tolerance` (absolute), or, leaving a
+    /// larger error, for a million evaluations (by hand).
     pub fn new(rule: &'a Rule, tolerance: f64) -> Adaptive<'a> {
         Adaptive { rule, tolerance, most_evaluations: 1_000_000 }
     }
 
-    /// With another limit; one more halving may exceed it.
+    /// Sets another limit of evaluations; one more halving may exceed it.
     pub fn most_evaluations(self, most_evaluations: usize) -> Adaptive<'a> {
         Adaptive { most_evaluations, ..self }
     }
 
-    /// Halves the first box whose error is above its share of the tolerance,
-    /// by recursion: needs no memory, but spends evaluations where others
-    /// would have gained more.
+    /// Halves the first box whose error is above its share of the tolerance, by recursion. This
+    /// needs no memory, but spends evaluations where others would have gained more.
     pub fn local<const D: usize>(
         &self,
         low: [f64; D],
@@ -70,8 +71,8 @@ impl<'a> Adaptive<'a> {
         }
     }
 
-    /// Halves the box with the largest error, kept on a heap, until the errors
-    /// add up to the tolerance.
+    /// Halves the box with the largest error, kept on a heap, until the errors add up to no more
+    /// than the tolerance.
     pub fn global<const D: usize>(
         &self,
         low: [f64; D],
@@ -84,7 +85,7 @@ impl<'a> Adaptive<'a> {
         let mut open = BinaryHeap::from([whole]);
         // Too small to be halved.
         let mut closed: Vec<Tile<D>> = Vec::new();
-        // False, too, where the error is no number.
+        // Also false if the error is NaN.
         while error > self.tolerance && error < f64::INFINITY && evaluations < self.most_evaluations
         {
             let Some(worst) = open.pop() else { break };
@@ -124,7 +125,7 @@ struct Total {
 }
 
 impl<const D: usize> Tile<D> {
-    /// The corners of both halves, or nothing if no number lies between.
+    /// Returns the corners of both halves, or none if no number lies between.
     fn halves(&self) -> Option<[[[f64; D]; 2]; 2]> {
         let axis = self.found.worst_axis;
         let (low, high) = (self.low[axis], self.high[axis]);

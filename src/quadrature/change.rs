@@ -1,22 +1,23 @@
-//! Changes of variable: from the unit interval or square to other domains.
+//! Changes of variable, from the unit interval or square to other domains.
 //!
-//! `∫ f(x) dx = ∫ f(x(u)) |dx/du| du`. The maps are smooth, as rules want them;
-//! of the two coordinates the second is the azimuth. [`over`] makes of an
-//! integrand on a domain one on the unit square, for any rule.
+//! `∫ f(x) dx = ∫ f(x(u)) |dx/du| du`. The maps are smooth, as rules need; the second of two
+//! coordinates is the azimuth. [`over`] turns an integrand on a domain into one on the unit square,
+//! for any rule.
 
 use glam::{DVec2, DVec3};
 use std::f64::consts::PI;
 
-/// Where a point of the unit interval or square comes to lie.
+/// The image of a point of the unit interval or square.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Mapped<X> {
+    /// The point of the domain.
     pub point: X,
     /// Length, area or solid angle there over that of the unit square here.
     pub jacobian: f64,
 }
 
-/// The integrand on the unit interval or square whose integral is that of `f`
-/// over the map's domain.
+/// Returns the integrand on the unit interval or square whose integral is that of `f` over the
+/// map's domain.
 pub fn over<U, X>(map: impl Fn(U) -> Mapped<X>, f: impl Fn(X) -> f64) -> impl Fn(U) -> f64 {
     move |u| {
         let Mapped { point, jacobian } = map(u);
@@ -40,9 +41,9 @@ pub fn hemisphere([u, turn]: [f64; 2]) -> Mapped<DVec3> {
     Mapped { point: direction(u, turn), jacobian: 2.0 * PI }
 }
 
-/// Directions within an angle of the z axis, in [0, π], down to the narrowest.
+/// Directions within an angle of the z axis, in [0, π]; accurate for the narrowest.
 pub fn cone(half_angle: f64) -> impl Fn([f64; 2]) -> Mapped<DVec3> {
-    // 1 - cos, which would cancel.
+    // 1 - cos, without cancellation.
     let height = 2.0 * (0.5 * half_angle).sin().powi(2);
     move |[u, turn]| Mapped { point: direction(u * height, turn), jacobian: 2.0 * PI * height }
 }

@@ -47,7 +47,7 @@ impl Rule {
     }
 }
 
-/// `cos` of `parts` of `whole` of a half turn, exact in the middle.
+/// `cos` of `parts / whole` of a half turn, exact in the middle.
 fn node(parts: usize, whole: usize) -> f64 {
     (0.5 * PI * (whole as f64 - 2.0 * parts as f64) / whole as f64).sin()
 }

@@ -16,7 +16,7 @@ impl Rule {
     }
 }
 
-/// Nodes in (-1, 1), ascending, and their weights, which add up to 2.
+/// Returns the nodes in (-1, 1), ascending, and their weights, which add up to 2.
 pub(super) fn points(n: usize) -> Vec<(f64, f64)> {
     let mut points: Vec<(f64, f64)> = (0..n.div_ceil(2)).map(|i| point(n, i)).collect();
     let mirrored: Vec<_> = points.iter().take(n / 2).rev().map(|&(x, w)| (-x, w)).collect();
@@ -24,9 +24,8 @@ pub(super) fn points(n: usize) -> Vec<(f64, f64)> {
     points
 }
 
-/// The i-th root of the Legendre polynomial of degree n from the left, in the
-/// left half, by Newton's method from Tricomi's approximation (Abramowitz &
-/// Stegun 22.16.6).
+/// Computes the i-th root of the Legendre polynomial of degree n from the left, in the left half,
+/// by Newton's method from Tricomi's approximation (Abramowitz & Stegun 22.16.6).
 fn point(n: usize, i: usize) -> (f64, f64) {
     if 2 * i + 1 == n {
         let (_, slope) = legendre(n, 0.0);

@@ -1,5 +1,5 @@
-//! Numerical integration, in f64, each result with an estimate of its error
-//! and the number of evaluations.
+//! Integrates numerically, in f64; each result has an estimate of its error and the number of
+//! evaluations.
 //!
 //! | the integrand is | take |
 //! |---|---|
@@ -11,8 +11,9 @@
 //! | of many variables, or an expectation | [`importance`], with points of [`crate::num::low_discrepancy`] |
 //! | a product of peaks | [`multiple_importance`] |
 //!
-//! Limits and points are arrays, one number a variable, and integrands take
-//! such an array: `|[x, y]| x * y`.
+//! Limits and points are arrays, one number per variable, and integrands take such an array:
+//! `|[x, y]| x * y`.
+//!
 //! ```
 //! use lgp::quadrature::{Adaptive, Rule, change};
 //! use std::f64::consts::PI;
@@ -48,17 +49,18 @@ pub use tanh_sinh::{Abscissa, TanhSinh};
 /// An integral.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Estimate {
+    /// The integral's value.
     pub value: f64,
-    /// Estimate of the absolute error of `value`. Of a rule: the distance from
-    /// the result of a coarser one, usually far above the true error. Of
-    /// random samples: the standard error. Infinite if the value is no number.
+    /// An estimate of the absolute error of `value`: for a rule, the distance from the result of
+    /// a coarser one, usually far above the true error; for random samples, the standard error.
+    /// Infinite if the value is not finite.
     pub error: f64,
-    /// How often the integrand was evaluated.
+    /// The number of evaluations of the integrand.
     pub evaluations: usize,
 }
 
 impl Estimate {
-    /// With an infinite error if the value or the error is not finite.
+    /// Makes the error infinite if the value or the error is not finite.
     fn checked(value: f64, error: f64, evaluations: usize) -> Estimate {
         let usable = value.is_finite() && error.is_finite();
         Estimate { value, error: if usable { error } else { f64::INFINITY }, evaluations }

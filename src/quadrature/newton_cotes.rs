@@ -3,9 +3,9 @@
 use super::Rule;
 
 impl Rule {
-    /// The centres of `cells` equal cells: exact for straight lines, error
-    /// O(cells⁻²). The coarser rule has a third of the cells, whose centres
-    /// are among them, or where that is no whole number half of them.
+    /// The midpoint rule on `cells` equal cells: exact for straight lines, error O(cells⁻²). The
+    /// coarser rule has a third of the cells, whose centres are among them, or, if `cells` is not a
+    /// multiple of 3, half of them.
     ///
     /// # Panics
     /// If `cells` is 0.

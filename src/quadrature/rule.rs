@@ -1,15 +1,18 @@
+//! Fixed rules.
+
 use super::Estimate;
 
-/// Nodes nearer than this are one: those of nested rules, found in two ways.
+/// Nodes nearer than this are the same, computed in two ways by nested rules: tens of ulps.
 const SAME_NODE: f64 = 1e-14;
 
 /// A node of a rule on [-1, 1].
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Point {
+    /// The place, in [-1, 1].
     pub node: f64,
-    /// In the rule itself; 0 at nodes of the coarser rule alone.
+    /// The weight in the rule itself; 0 at nodes of the coarser rule alone.
     pub weight: f64,
-    /// In the coarser rule that estimates the error; 0 at nodes that it lacks.
+    /// The weight in the coarser rule that estimates the error; 0 at nodes that it lacks.
     pub coarse: f64,
 }
 
@@ -21,18 +24,18 @@ pub struct Rule {
     points: Vec<Point>,
 }
 
-/// What a rule found in a box.
+/// A rule's result in a box.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Found {
     pub value: f64,
     pub error: f64,
-    /// Along which the coarser rule differs most.
+    /// The axis along which the coarser rule differs most.
     pub worst_axis: usize,
     pub evaluations: usize,
 }
 
 impl Rule {
-    /// Of nodes and weights on [-1, 1], and those of a coarser rule.
+    /// Makes a rule of nodes and weights on [-1, 1], and those of a coarser rule.
     pub(super) fn new(fine: &[(f64, f64)], coarse: &[(f64, f64)]) -> Rule {
         let fine = fine.iter().map(|&(node, weight)| Point { node, weight, coarse: 0.0 });
         let coarse = coarse.iter().map(|&(node, coarse)| Point { node, weight: 0.0, coarse });
@@ -49,15 +52,14 @@ impl Rule {
         Rule { points }
     }
 
-    /// The nodes of both rules in [-1, 1], ascending; each rule's weights add
-    /// up to 2.
+    /// Returns the nodes of both rules in [-1, 1], ascending; each rule's weights add up to 2.
     pub fn points(&self) -> &[Point] {
         &self.points
     }
 
-    /// Integral of `f` over the box between two corners: the product of the
-    /// rule with itself in `D` variables. Its error is the sum over the axes
-    /// of what the coarser rule along that axis alone would change.
+    /// Integrates `f` over the box between two corners, by the product of the rule with itself in
+    /// `D` variables. The error is the sum, over the axes, of the change by the coarser rule along
+    /// that axis alone.
     pub fn integrate<const D: usize>(
         &self,
         low: [f64; D],
@@ -81,7 +83,7 @@ impl Rule {
         let mut indices = [0; D];
         loop {
             let points = indices.map(|index| self.points[index]);
-            // At nodes of the coarser rule along two axes no sum has a weight.
+            // Nodes of the coarser rule along two axes have no weight in any sum.
             if points.iter().filter(|point| point.weight == 0.0).count() <= 1 {
                 let value = f(std::array::from_fn(|axis| {
                     low[axis] + half[axis] * (1.0 + points[axis].node)
@@ -116,7 +118,7 @@ fn weight_coarse_along(coarse: usize, points: &[Point]) -> f64 {
     points.iter().enumerate().map(weight).product()
 }
 
-/// The next indices below `count`, the last varying fastest.
+/// Advances the indices, the last varying fastest; false if none is left below `count`.
 fn advance(indices: &mut [usize], count: usize) -> bool {
     for index in indices.iter_mut().rev() {
         *index += 1;

@@ -5,15 +5,15 @@ use crate::num::CompensatedSum;
 
 /// A way to draw points `X` with a known density.
 pub struct Technique<'a, X, const D: usize> {
-    /// The point that coordinates in [0, 1) give.
+    /// Maps coordinates in [0, 1) to a point.
     pub sample: &'a dyn Fn([f64; D]) -> X,
-    /// With which it is drawn, in the measure of the integral.
+    /// The density with which a point is drawn, in the measure of the integral.
     pub density: &'a dyn Fn(&X) -> f64,
 }
 
-/// `∫ f` as the mean of `f(x) / density(x)` over points `x` of the technique,
-/// one for each of `coordinates`: random numbers, or points of a
-/// low-discrepancy sequence. The density must not be zero where `f` is not.
+/// Integrates `f` as the mean of `f(x) / density(x)` over points `x` of the technique, one for each
+/// of `coordinates`: random numbers, or points of a low-discrepancy sequence. The density must not
+/// be zero where `f` is not.
 ///
 /// The error is the standard error of random coordinates; that of
 /// low-discrepancy ones is usually far smaller. It is infinite with fewer than
@@ -31,12 +31,11 @@ pub fn importance<X, const D: usize>(
     Estimate::checked(mean.value(), mean.variance().sqrt(), mean.count)
 }
 
-/// `∫ f` from points of several techniques at once, each with its coordinates,
-/// combined by the balance heuristic: a point counts
-/// `f(x) / Σₖ nₖ densityₖ(x)`, whichever technique drew it (Veach and Guibas,
-/// "Optimally Combining Sampling Techniques for Monte Carlo Rendering", 1995,
-/// eq. 8, and theorem 1 for its variance). Unbiased if some density is not
-/// zero wherever `f` is not. The error as for [`importance`].
+/// Integrates `f` with points of several techniques at once, each with its coordinates, combined by
+/// the balance heuristic: a point counts `f(x) / Σₖ nₖ densityₖ(x)`, whichever technique drew it
+/// (Veach and Guibas, "Optimally Combining Sampling Techniques for Monte Carlo Rendering", 1995,
+/// eq. 8, and theorem 1 for its variance). Unbiased if, wherever `f` is not zero, some density is
+/// not. The error is that of [`importance`].
 pub fn multiple_importance<X, const D: usize>(
     techniques: &[(Technique<X, D>, &[[f64; D]])],
     f: impl Fn(&X) -> f64,
@@ -62,7 +61,7 @@ pub fn multiple_importance<X, const D: usize>(
     Estimate::checked(value.value(), error, evaluations)
 }
 
-/// A point where the integrand is zero counts nothing, whatever its density.
+/// Returns zero if the integrand is zero, whatever the density.
 fn ratio(value: f64, density: f64) -> f64 {
     if value == 0.0 { 0.0 } else { value / density }
 }
@@ -88,7 +87,7 @@ impl Mean {
         self.mean
     }
 
-    /// Of the mean.
+    /// Returns the variance of the mean.
     fn variance(&self) -> f64 {
         let count = self.count as f64;
         if self.count < 2 { f64::INFINITY } else { self.squares / (count * (count - 1.0)) }

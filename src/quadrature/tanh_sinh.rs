@@ -1,19 +1,24 @@
+//! The double-exponential rule.
+
 use super::Estimate;
 use std::f64::consts::{FRAC_PI_2, PI};
 
-/// Steps of a half, a quarter, … of the first.
+/// The number of step sizes: the first, its half, its quarter, … By hand: 2⁻⁹ leaves thousands of
+/// nodes.
 const LEVELS: usize = 10;
-/// Beyond this the weights fall below the smallest positive f64.
+/// The t beyond which weights fall below the smallest positive f64.
 const REACH: f64 = 6.1;
-/// No sum is cut off nearer to the middle than this.
+/// The least t at which a sum is cut off. By hand.
 const LEAST_REACH: f64 = 2.0;
-/// Two levels that agree by chance are not trusted before this one.
+/// The first level whose agreement with the one before is trusted: earlier ones may agree by
+/// chance. By hand.
 const LEAST_LEVEL: usize = 3;
 
-/// Where an integrand is evaluated, with the distances from both ends, which
-/// stay accurate where `x` itself rounds to an end.
+/// A place of evaluation, with the distances from both ends, which stay accurate where `x` itself
+/// rounds to an end.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Abscissa {
+    /// The place, in [a, b].
     pub x: f64,
     /// x - a, positive.
     pub from_a: f64,
@@ -29,13 +34,12 @@ struct Node {
     weight: f64,
 }
 
-/// The double-exponential rule of Takahasi and Mori (1974): the trapezoidal
-/// rule after x = tanh(π/2 sinh t). It converges exponentially for integrands
-/// that are analytic inside the interval, whatever singularity, integrable or
-/// nearby, they have at its ends.
+/// The double-exponential rule of Takahasi and Mori (1974): the trapezoidal rule after x = tanh(π/2
+/// sinh t). It converges exponentially for integrands that are analytic inside the interval,
+/// whatever integrable or nearby singularity they have at its ends.
 #[derive(Clone, Debug)]
 pub struct TanhSinh {
-    /// Nodes with t > 0 that each level adds, ascending in t.
+    /// The nodes with t > 0 that each level adds, ascending in t.
     levels: Vec<Vec<Node>>,
 }
 
@@ -46,17 +50,16 @@ impl Default for TanhSinh {
 }
 
 impl TanhSinh {
-    /// Computes the nodes; make one and use it for many integrals.
+    /// Computes the nodes. Make one and use it for many integrals.
     pub fn new() -> TanhSinh {
         TanhSinh { levels: (0..LEVELS).map(new_nodes).collect() }
     }
 
-    /// Integral of `f` over the finite interval [a, b], a ≤ b: halves the step
-    /// until two results differ by no more than `tolerance` (absolute), ten
-    /// levels at most. An estimate whose `error` exceeds the tolerance has not
-    /// converged; a value of `f` that is not finite makes the result NaN and
-    /// its error infinite, except that it ends the sum near the end of the
-    /// interval, where `x` may round to a singularity.
+    /// Integrates `f` over the finite interval [a, b], a ≤ b: halves the step until two results
+    /// differ by no more than `tolerance` (absolute), at most nine times. An estimate whose `error`
+    /// exceeds the tolerance has not converged. A value of `f` that is not finite makes the result
+    /// NaN and its error infinite, except near the end of the interval, where `x` may round to a
+    /// singularity: there it ends the sum.
     pub fn integrate(
         &self,
         a: f64,
@@ -68,8 +71,7 @@ impl TanhSinh {
         estimate
     }
 
-    /// The integrals of `N` functions at once, refined until all have
-    /// converged.
+    /// Integrates `N` functions at once, refining until all have converged.
     pub fn integrate_all<const N: usize>(
         &self,
         a: f64,
@@ -123,9 +125,8 @@ impl<const N: usize> Sum<N> {
             for (sum, term) in self.values.iter_mut().zip(terms) {
                 *sum += term;
             }
-            // The weights fall doubly exponentially: what is left of the tail
-            // is about as large as its first term. One small term may be a
-            // root of the integrand.
+            // The weights fall doubly exponentially: the rest of the tail is about as large as its
+            // first term. One small term may be a root of the integrand.
             let small = terms.iter().all(|term| term.abs() <= negligible);
             if in_tail && small && negligible_before {
                 return;

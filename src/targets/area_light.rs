@@ -1,7 +1,6 @@
-//! A specular lobe integrated over a spherical light: what the models of
-//! Pesce and Iwanicki, "Approximate Models for Physically Based Rendering",
-//! 2015, §4 (roughness modification, capped, representative point) are fitted
-//! to.
+//! A specular lobe integrated over a spherical light, to which the models of Pesce and Iwanicki,
+//! "Approximate Models for Physically Based Rendering", 2015, §4 (roughness modification, capped,
+//! representative point) are fitted.
 //!
 //! Definition: v = n = r as for [`super::area_norm`]; the light of unit
 //! intensity fills the cone of full angle ω about a direction θ from r, with
@@ -10,11 +9,11 @@
 //! ω = 0 it is D(θ/2) cos θ / D(0), a point light's highlight.
 //!
 //! Method: the circle at ψ around r lies in the light for azimuths |φ| < Φ,
-//! cos(ω/2) = cos θ cos ψ + sin θ sin ψ cos Φ, or without cancellation
-//! sin²(Φ/2) = sin((ω/2 + θ - ψ)/2) sin((ω/2 - θ + ψ)/2) / (sin θ sin ψ). What
-//! is left is an integral over ψ: from |θ - ω/2| to θ + ω/2, where it ends like
-//! square roots, and over whole circles below ω/2 - θ. The double-exponential
-//! rule takes it, beyond the lobe's width in the logarithm of ψ.
+//! `cos(ω/2) = cos θ cos ψ + sin θ sin ψ cos Φ`, or without cancellation
+//! `sin²(Φ/2) = sin((ω/2 + θ - ψ)/2) sin((ω/2 - θ + ψ)/2) / (sin θ sin ψ)`. An integral over ψ
+//! remains: from |θ - ω/2| to θ + ω/2, where it ends like square roots, and over whole circles
+//! below ω/2 - θ. The double-exponential rule computes it, beyond the lobe's width in the
+//! logarithm of ψ.
 
 use super::lobe::ggx;
 use super::sampling::{SAMPLING, SAMPLING_SEED};
@@ -24,10 +23,11 @@ use crate::dataset::{Axis, Dataset};
 use crate::quadrature::{Estimate, TanhSinh};
 use std::f64::consts::{FRAC_PI_2, PI};
 
-/// Largest estimated error that [`generate`] accepts.
+/// The largest estimated error that [`generate`] accepts: below the rounding to f32.
 pub const ALLOWED_ERROR: f64 = 1e-8;
+/// A thousandth of it, for each of the integrals that are added.
 const TOLERANCE: f64 = 1e-11;
-/// In place of roughness = 0, where the lobe is a single direction.
+/// Sampled instead of roughness = 0, where the lobe is a single direction.
 const SMOOTHEST: f64 = 0.001;
 
 pub(super) const TARGET: Target = Target {
@@ -38,8 +38,8 @@ pub(super) const TARGET: Target = Target {
     generate,
 };
 
-/// `lobe` at `omega` in [0, π), `alpha` in (0, 1] and `theta` in [0, π/2],
-/// radians. Make `rule` once for many points.
+/// Computes `lobe` at `omega` in [0, π), `alpha` in (0, 1] and `theta` in [0, π/2], radians. Make
+/// `rule` once for many points.
 pub fn integrate(rule: &TanhSinh, omega: f64, alpha: f64, theta: f64) -> Estimate {
     let radiance = |psi: f64| ggx(0.5 * psi, alpha) * psi.cos();
     let radius = 0.5 * omega;
@@ -73,9 +73,9 @@ pub fn integrate(rule: &TanhSinh, omega: f64, alpha: f64, theta: f64) -> Estimat
 struct Arc {
     inner: f64,
     outer: f64,
-    /// `outer - inner`, which a small light far from r would lose.
+    /// `outer - inner`, which the difference would round away for a small light far from r.
     width: f64,
-    /// From here in the logarithm.
+    /// The angle from which on it is integrated in the logarithm.
     split: f64,
 }
 

@@ -1,9 +1,8 @@
-//! Normalisation of the representative point of a spherical light.
+//! The normalisation of the representative point of a spherical light.
 //!
-//! A light whose cone of directions has the full angle ω is replaced by one
-//! point of it, nearer to the reflected direction r: that keeps the highlight's
-//! shape and makes it too bright. Multiplying by the normalisation restores
-//! its energy (Karis, "Real Shading in Unreal Engine 4", 2013; Pesce and
+//! A light whose cone of directions has the full angle ω is replaced by one of its points, nearer
+//! to the reflected direction r. This keeps the highlight's shape and makes it too bright; the
+//! normalisation restores its energy (Karis, "Real Shading in Unreal Engine 4", 2013; Pesce and
 //! Iwanicki, "Approximate Models for Physically Based Rendering", 2015, §4).
 //!
 //! Definition: v = n = r, light in direction θ from r, R = tan(ω/2),
@@ -25,13 +24,13 @@ use super::{Choices, Error, Parameter, Progress, Recipe, Target, points};
 use crate::dataset::{Axis, Dataset};
 use crate::quadrature::TanhSinh;
 
-/// Largest estimated error that [`generate`] accepts.
+/// The largest estimated error that [`generate`] accepts: below the rounding to f32.
 pub const ALLOWED_ERROR: f64 = 1e-8;
 const SMOOTHED: &str = "smoothed";
 const HARD: &str = "hard";
 const OMEGA: &str = "omega";
 const TAN_HALF_OMEGA: &str = "tan_half_omega";
-/// In place of alpha = 0, where norm is 0 but for ω = 0.
+/// Sampled instead of alpha = 0, where norm is 0 except at ω = 0.
 const NARROWEST: f64 = 0.001;
 
 pub(super) const TARGET: Target = Target {
@@ -58,15 +57,17 @@ pub(super) const TARGET: Target = Target {
     generate,
 };
 
-/// Which point of the light stands for it.
+/// The point of the light that stands for it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum RepresentativePoint {
+    /// By the soft minimum of the 2015 paper.
     Smoothed,
+    /// By the minimum, as Karis has it.
     Hard,
 }
 
 impl RepresentativePoint {
-    /// 1 - f, the rest of the way to r, for q = R / sin θ.
+    /// Returns 1 - f, the rest of the way to r, for q = R / sin θ.
     fn rest(self, q: f64) -> f64 {
         match self {
             RepresentativePoint::Smoothed => -(-q.powi(-3).ln_1p() / 3.0).exp_m1().min(0.0),
@@ -75,15 +76,17 @@ impl RepresentativePoint {
     }
 }
 
-/// Normalisation, and an estimate of its absolute error.
+/// A normalisation, and its error.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Norm {
+    /// The normalisation, dimensionless.
     pub value: f64,
+    /// An estimate of its absolute error.
     pub error: f64,
 }
 
-/// The normalisation at R = `tan_half_omega` ≥ 0 and `alpha` in (0, 1]. Make
-/// `rule` once for many points.
+/// Computes the normalisation at R = `tan_half_omega` ≥ 0 and `alpha` in (0, 1]. Make `rule` once
+/// for many points.
 pub fn integrate(
     rule: &TanhSinh,
     tan_half_omega: f64,

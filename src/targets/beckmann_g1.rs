@@ -11,7 +11,7 @@ use super::{Error, Progress, Recipe, Target, points};
 use crate::dataset::{Axis, Dataset};
 use crate::microfacet::beckmann;
 
-/// Of Λ for slopes up to 1.6, by the tests of [`beckmann`].
+/// The error of Λ for slopes up to 1.6, by the tests of [`beckmann`].
 const ERROR: f64 = 1e-12;
 
 pub(super) const TARGET: Target = Target {
@@ -25,7 +25,7 @@ pub(super) const TARGET: Target = Target {
 /// Makes the dataset on a in [0, 1.6].
 ///
 /// # Errors
-/// None but a bug.
+/// None that a recipe can cause.
 pub fn generate(recipe: &Recipe, progress: Progress) -> Result<Dataset, Error> {
     let table = Table {
         recipe,

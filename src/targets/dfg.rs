@@ -7,12 +7,11 @@
 //! over the samples of `(1 - (1 - v·h)^5) W` is `scale`, that of
 //! `(1 - v·h)^5 W` is `bias`.
 //!
-//! Method: for normals at θ from n drawn with u = t²/(1 + t²), t = tan θ / α,
-//! the light is above the horizon for azimuths |φ| < φmax(θ). φmax is π up to
-//! θ = (π/2 - θv) / 2 and falls to 0 at (π/2 + θv) / 2. The double-exponential
-//! rule takes φ from 0 to φmax, and u over each of the two ranges: whatever is
-//! stiff (a narrow lobe, grazing light) lies at an end of one of them. u is
-//! carried with its complement, which keeps the far tail of a narrow lobe.
+//! Method: for normals at θ from n drawn with u = t²/(1 + t²), t = tan θ / α, the light is above
+//! the horizon for azimuths |φ| < φmax(θ). φmax is π up to θ = (π/2 - θv) / 2 and falls to 0 at
+//! (π/2 + θv) / 2. The double-exponential rule integrates over φ from 0 to φmax, and over u in each
+//! of the two ranges: all that is stiff (a narrow lobe, grazing light) lies at an end of one of
+//! them. u is carried with its complement, which keeps the far tail of a narrow lobe.
 
 use super::sampling::{SAMPLING, SAMPLING_SEED};
 use super::table::{Sample, Table};
@@ -23,10 +22,11 @@ use crate::quadrature::{Abscissa, TanhSinh};
 use std::cell::Cell;
 use std::f64::consts::{FRAC_PI_2, PI};
 
-/// Largest estimated error that [`generate`] accepts.
+/// The largest estimated error that [`generate`] accepts: about the rounding to f32.
 pub const ALLOWED_ERROR: f64 = 1e-7;
+/// A hundredth of it, for each integral: the errors of nested integrals add up.
 const TOLERANCE: f64 = 1e-9;
-/// In place of n·v = 0, where W is undefined.
+/// Sampled instead of n·v = 0, where W is undefined.
 const GRAZING: f64 = 0.001;
 const CORRELATED: &str = "correlated";
 const SEPARABLE: &str = "separable";
@@ -57,31 +57,35 @@ pub(super) const TARGET: Target = Target {
     generate,
 };
 
-/// How masking of v and shadowing of l combine.
+/// The combination of the masking of v and the shadowing of l.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Masking {
+    /// Correlated by height ([`ggx::g2_correlated`]).
     Correlated,
+    /// Independent ([`ggx::g2_separable`]).
     Separable,
 }
 
-/// The two terms.
+/// The two terms at a point.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Dfg {
+    /// The factor of f0.
     pub scale: f64,
+    /// The summand.
     pub bias: f64,
-    /// Estimate of the absolute error of either.
+    /// An estimate of the absolute error of either.
     pub error: f64,
-    /// How often the integrand was evaluated.
+    /// The number of evaluations of the integrand.
     pub evaluations: usize,
 }
 
-/// The terms at `n_dot_v` in (0, 1] and `alpha` in [0, 1], accurate to about
-/// 1e-9; at alpha = 0 their limit. Make `rule` once for many points.
+/// Computes the terms at `n_dot_v` in (0, 1] and `alpha` in [0, 1], to about 1e-9; at alpha = 0,
+/// their limit. Make `rule` once for many points.
 pub fn integrate(rule: &TanhSinh, n_dot_v: f64, alpha: f64, masking: Masking) -> Dfg {
     integrate_within(rule, TOLERANCE, n_dot_v, alpha, masking)
 }
 
-/// [`integrate`], each of its integrals to an absolute `tolerance`.
+/// [`integrate`], with an absolute `tolerance` for each integral.
 pub fn integrate_within(
     rule: &TanhSinh,
     tolerance: f64,
@@ -141,7 +145,7 @@ impl View {
         View { cosine, sine, alpha, masking, tolerance, evaluations: Cell::new(0) }
     }
 
-    /// scale, bias and the error of either, averaged over azimuth.
+    /// Integrates over azimuth: the means of scale and bias, and the error of either.
     fn ring(&self, rule: &TanhSinh, normal: Normal) -> [f64; 3] {
         let (n_dot_h, sin_h) = normal.direction(self.alpha);
         let horizon = -self.cosine * (n_dot_h - sin_h) * (n_dot_h + sin_h);
@@ -170,9 +174,9 @@ impl View {
     }
 }
 
-/// scale, bias and the error of either, over a range of normals.
+/// Integrates over a range of normals: scale, bias, and the error of either.
 fn integrate_normals(rule: &TanhSinh, view: &View, from: Normal, to: Normal) -> [f64; 3] {
-    // The range is measured where it is not a difference of nearly equal numbers.
+    // The range as the difference that loses no digits.
     let width = if from.u < 0.5 { to.u - from.u } else { from.complement - to.complement };
     if width <= 0.0 {
         return [0.0; 3];
@@ -213,7 +217,7 @@ pub fn generate(recipe: &Recipe, progress: Progress) -> Result<Dataset, Error> {
     Ok(dataset)
 }
 
-/// No more light leaves than falls in, whatever the reflectance at normal incidence.
+/// No more light leaves than arrives, whatever the reflectance at normal incidence.
 const ENERGY: &str = "energy: f0*scale + bias <= 1 for f0 in 0..1";
 
 fn alpha(recipe: &Recipe, roughness: f64) -> f64 {

@@ -8,11 +8,10 @@
 //! `zhₗ = √(4π/(2l+1)) Σₘ cₗₘ Yₗₘ(d)`, which the addition theorem makes
 //! `√((2l+1)/(4π)) ∫ f cos θ Pₗ(l·d) dl`; and d ∝ (1 - β) n + β v.
 //!
-//! Method: (l·h)² = (1 + l·v)/2, so F is linear in l·v = n·l n·v +
-//! sin θ sin θv cos φ, and the lobe is `a + b cos φ + c cos² φ`. The azimuth is
-//! integrated by hand; what is left is a polynomial in n·l, for which
-//! Gauss–Legendre is exact: nothing but rounding is lost. b has the factor
-//! sin θv, which leaves the quotient tan θd / sin θv that β needs, at v = n, too.
+//! Method: (l·h)² = (1 + l·v)/2, so F is linear in l·v = n·l n·v + sin θ sin θv cos φ, and the lobe
+//! is `a + b cos φ + c cos² φ`. The integral over azimuth has a closed form; a polynomial in n·l
+//! remains, for which Gauss–Legendre is exact, up to rounding. b has the factor sin θv, so that the
+//! quotient tan θd / sin θv, from which β follows, exists at v = n, too.
 
 use super::sampling::{SAMPLING, SAMPLING_SEED};
 use super::table::{Sample, Table};
@@ -21,10 +20,10 @@ use crate::dataset::{Axis, Dataset};
 use crate::quadrature::Rule;
 use std::f64::consts::PI;
 
-/// The polynomials in n·l have degree 12 at most: 5 of (1 - n·l)⁵, 2 of F², 1 of the
-/// cosine, 2 of P₂ and 2 of what sin² leaves.
+/// Enough for the polynomials in n·l, of degree 12 at most: 5 of (1 - n·l)⁵, 2 of F², 1 of the
+/// cosine, 2 of P₂ and 2 of sin².
 const POINTS: usize = 8;
-/// Rounding, of sums of about a hundred terms of order 1.
+/// The rounding of sums of about a hundred terms of order 1.
 const ERROR: f64 = 1e-14;
 
 pub(super) const TARGET: Target = Target {
@@ -35,12 +34,12 @@ pub(super) const TARGET: Target = Target {
     generate,
 };
 
-/// Coefficients of the lobe about its axis, and where that lies.
+/// The coefficients of the lobe about its axis, and the axis.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Lobe {
     /// Bands 0, 1 and 2.
     pub zh: [f64; 3],
-    /// The axis is along (1 - β) n + β v.
+    /// The axis, along (1 - β) n + β v.
     pub beta: f64,
 }
 
@@ -48,16 +47,16 @@ pub struct Lobe {
 #[derive(Clone, Copy, Default)]
 struct Moments {
     one: f64,
-    /// Over sin θv.
+    /// The integral over sin θv.
     x: f64,
     z: f64,
     xx: f64,
-    /// Over sin θv.
+    /// The integral over sin θv.
     xz: f64,
     zz: f64,
 }
 
-/// The lobe at `n_dot_v` and `roughness`, each in [0, 1].
+/// Projects the lobe at `n_dot_v` and `roughness`, each in [0, 1].
 pub fn project(n_dot_v: f64, roughness: f64) -> Lobe {
     let moments = moments(n_dot_v, roughness);
     let sin_v = ((1.0 - n_dot_v) * (1.0 + n_dot_v)).sqrt();

@@ -1,9 +1,12 @@
+//! The reasons why a ground truth cannot be made.
+
 use super::{Choices, Parameter, Target, targets};
 use crate::dataset;
 use crate::suggest::nearest;
 use std::path::PathBuf;
 
-/// Why a ground truth cannot be made.
+/// The reason why a ground truth cannot be made.
+#[allow(missing_docs, reason = "each message names its fields")]
 #[derive(Debug, thiserror::Error)]
 pub enum Error {
     #[error("{path}: cannot be read: {source}; check the path of the recipe", path = path.display())]
@@ -29,7 +32,7 @@ pub enum Error {
     )]
     UnknownParameter { target: String, name: String, suggestion: Option<String>, available: String },
     #[error(
-        "`{value}` is no value of parameter `{parameter}`{}; write {choices}",
+        "`{value}` is not a value of parameter `{parameter}`{}; write {choices}",
         did_you_mean(suggestion)
     )]
     Value { parameter: String, value: String, suggestion: Option<String>, choices: String },

@@ -11,7 +11,7 @@ use super::{Error, Progress, Recipe, Target, points};
 use crate::dataset::{Axis, Dataset};
 use crate::microfacet::fresnel;
 
-/// A few roundings.
+/// The rounding of a few operations.
 const ERROR: f64 = 1e-14;
 
 pub(super) const TARGET: Target = Target {
@@ -25,7 +25,7 @@ pub(super) const TARGET: Target = Target {
 /// Makes the dataset on v·h in [0, 1] and f0 in [.02, .18].
 ///
 /// # Errors
-/// None but a bug.
+/// None that a recipe can cause.
 pub fn generate(recipe: &Recipe, progress: Progress) -> Result<Dataset, Error> {
     let table = Table {
         recipe,

@@ -1,5 +1,5 @@
-//! The GGX distribution relative to its peak, `π α² D`: a formula that is known,
-//! and that single precision spoils unless it is written with care.
+//! The GGX distribution relative to its peak, `π α² D`: a known formula that single precision
+//! spoils unless it is written with care.
 //!
 //! The textbook's `n·h²(α² - 1) + 1` cancels where the lobe is narrow. Rows are
 //! spread over the lobe of each width: n·h at equal steps of the fraction
@@ -33,7 +33,7 @@ pub fn over_peak(n_dot_h: f64, alpha: f64) -> f64 {
 /// the horizon and from end to end, weighted by the area of their cells.
 ///
 /// # Errors
-/// None but a bug.
+/// None that a recipe can cause.
 pub fn generate(recipe: &Recipe, progress: Progress) -> Result<Dataset, Error> {
     let points = recipe.count("points");
     let centre = |i: usize| (i as f64 + 0.5) / points as f64;
@@ -54,7 +54,7 @@ pub fn generate(recipe: &Recipe, progress: Progress) -> Result<Dataset, Error> {
     )?)
 }
 
-/// Every pair of a width and a place in its lobe, both given in [0, 1].
+/// Samples every pair of a width and a place in its lobe, both given in [0, 1].
 fn rows(places: &[f64]) -> Split {
     let (widths, mut columns) = (widths(), vec![Vec::new(); 3]);
     for &width in places {

@@ -3,22 +3,20 @@
 use crate::quadrature::{Estimate, TanhSinh};
 use std::f64::consts::FRAC_PI_2;
 
-/// D of GGX at `angle` from the normal over its peak, D(0) = 1/(π α²):
-/// (cos² + sin²/α²)⁻². From the angle, since 1 - n·h loses it where the lobe
-/// is narrow. `alpha` > 0.
+/// D of GGX at `angle` from the normal over its peak, D(0) = 1/(π α²): (cos² + sin²/α²)⁻². It takes
+/// the angle, since 1 - n·h loses it where the lobe is narrow. `alpha` > 0.
 pub(super) fn ggx(angle: f64, alpha: f64) -> f64 {
     let (sin, cos) = angle.sin_cos();
     let stretched = sin / alpha;
     (cos * cos + stretched * stretched).powi(-2)
 }
 
-/// Relative to the size of the integrand; about what rounding leaves.
+/// Relative to the size of the integrand: about its rounding.
 const TOLERANCE: f64 = 1e-12;
 
-/// Integral over an angle from 0 to π/2, of an integrand ≥ 0 that changes its
-/// character near each of `scales` (those outside the range are ignored): the
-/// double-exponential rule between each two, in the logarithm of the angle, so
-/// that scales of any ratio are resolved.
+/// Integrates over an angle from 0 to π/2 an integrand ≥ 0 that changes its character near each of
+/// `scales` (those outside the range are ignored): by the double-exponential rule between each two,
+/// in the logarithm of the angle, so that scales of any ratio are resolved.
 pub(super) fn integrate_angle(rule: &TanhSinh, scales: &[f64], f: impl Fn(f64) -> f64) -> Estimate {
     let inside = scales.iter().copied().filter(|scale| (1e-300..FRAC_PI_2).contains(scale));
     let mut ends: Vec<f64> = inside.chain([FRAC_PI_2]).collect();

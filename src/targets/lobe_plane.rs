@@ -1,27 +1,23 @@
-//! Which lobe, perpendicular to a plane at distance 1, looks on the plane like
-//! one from elsewhere: the roughness correction of parallax-corrected cube
-//! maps (Pesce and Iwanicki, "Approximate Models for Physically Based
-//! Rendering", 2015, §8).
+//! Finds the lobe, perpendicular to a plane at distance 1, that looks on the plane like one from
+//! elsewhere: the roughness correction of parallax-corrected cube maps (Pesce and Iwanicki,
+//! "Approximate Models for Physically Based Rendering", 2015, §8).
 //!
-//! Definition: the lobe `K(θ; r) = D(θ/2) cos θ` over its peak, D being GGX with
-//! α = r², 0 below its own horizon. Seen from distance 1 straight above, it
-//! draws `K(atan ρ; r)` at ρ on the plane. To what another lobe draws, the
-//! roughness r' ≤ 1, a scale s and an offset o are fitted by least squares over
-//! the disc ρ < `reach`; r' is the output, s and o are discarded.
-//! - over distance d: the other lobe is perpendicular, too, at distance d, and
-//!   draws `K(atan(ρ/d); r)`.
-//! - over angle ψ: the other lobe starts at height 1 and hits the plane at ψ
-//!   from its normal, in the disc's centre; the fitted lobe may shift along
-//!   the line from there to the foot of the plane's normal, within the disc.
+//! Definition: the lobe `K(θ; r) = D(θ/2) cos θ` over its peak, D being GGX with α = r², 0 below
+//! its own horizon. Seen from distance 1 straight above, it draws `K(atan ρ; r)` at ρ on the plane.
+//! The roughness r' ≤ 1, a scale s and an offset o are fitted by least squares, over the disc ρ <
+//! `reach`, to what another lobe draws; r' is the output, s and o are discarded.
+//! - over distance d: the other lobe is perpendicular, too, at distance d, and draws
+//!   `K(atan(ρ/d); r)`.
+//! - over angle ψ: the other lobe starts at height 1 and hits the plane at ψ from its normal, in
+//!   the disc's centre; the fitted lobe may shift along the line from there to the foot of the
+//!   plane's normal, within the disc.
 //!
-//! For narrow lobes r' = r √d, and r' = r / cos^(3/4) ψ: a spot of width α is
-//! wider by 1/cos ψ across and by 1/cos² ψ along the line, of which α' follows
-//! the geometric mean.
+//! For narrow lobes r' = r √d, and r' = r / cos^(3/4) ψ: a spot of width α is wider by 1/cos ψ
+//! across and by 1/cos² ψ along the line, and α' follows the geometric mean.
 //!
-//! Method: s and o are linear and follow from means over the disc; r' (and the
-//! shift) by a scan and then a simplex. The disc is integrated by
-//! Gauss–Legendre in t, ρ = w sinh t, w the spot's width, and over the azimuth
-//! by midpoints.
+//! Method: s and o are linear and follow from means over the disc; r' (and the shift) by a scan and
+//! then a simplex. The disc is integrated by Gauss–Legendre in t, ρ = w sinh t, w the spot's width,
+//! and over the azimuth by midpoints.
 
 use super::sampling::{SAMPLING, SAMPLING_SEED};
 use super::simplex;
@@ -31,11 +27,11 @@ use crate::dataset::{Axis, Dataset, Spacing};
 use crate::quadrature::Rule;
 use std::f64::consts::{FRAC_PI_3, PI};
 
-/// Largest estimated error that [`generate`] accepts.
+/// The largest estimated error that [`generate`] accepts: the fit is of a model to a model.
 pub const ALLOWED_ERROR: f64 = 1e-5;
 const DISTANCE: &str = "distance";
 const ANGLE: &str = "angle";
-/// In place of roughness = 0, where the lobe is a single direction.
+/// Sampled instead of roughness = 0, where the lobe is a single direction.
 const SMOOTHEST: f64 = 0.001;
 
 pub(super) const TARGET: Target = Target {
@@ -62,15 +58,17 @@ pub(super) const TARGET: Target = Target {
     generate,
 };
 
-/// A fitted roughness, and how far it is from that of a coarser rule.
+/// A fitted roughness, and its error.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Fit {
+    /// The fitted roughness, in (0, 1].
     pub roughness: f64,
+    /// The difference from the result of a coarser rule.
     pub error: f64,
 }
 
-/// The fit to a perpendicular lobe of `roughness` in (0, 1] at a `distance`
-/// > 0, over the disc of radius `reach`.
+/// Fits a perpendicular lobe of `roughness` in (0, 1] at a `distance` > 0, over the disc of radius
+/// `reach`.
 pub fn fit_distance(roughness: f64, distance: f64, reach: f64) -> Fit {
     let alpha = roughness * roughness;
     let fit = |points| {
@@ -84,12 +82,12 @@ pub fn fit_distance(roughness: f64, distance: f64, reach: f64) -> Fit {
     Fit { roughness: fine, error: (fine - coarse).abs() }
 }
 
-/// The fit to a lobe of `roughness` in (0, 1] from height 1 at `angle` in
-/// [0, π/2) from the plane's normal, over the disc of radius `reach`.
+/// Fits a lobe of `roughness` in (0, 1] from height 1 at `angle` in [0, π/2) from the plane's
+/// normal, over the disc of radius `reach`.
 pub fn fit_angle(roughness: f64, angle: f64, reach: f64) -> Fit {
     let alpha = roughness * roughness;
     let (sin, cos) = angle.sin_cos();
-    // Along the lobe's axis and across it, from its origin.
+    // The coordinate along the lobe's axis, and the square of that across, from its origin.
     let drawn = |[x, y]: [f64; 2]| {
         let along = 1.0 / cos + x * sin;
         let across_squared = (x * cos).powi(2) + y * y;
@@ -110,7 +108,7 @@ pub fn fit_angle(roughness: f64, angle: f64, reach: f64) -> Fit {
     Fit { roughness: fine, error: (fine - coarse).abs() }
 }
 
-/// A point of the disc, and what is drawn there.
+/// A point of the disc, and the lobe's value there.
 struct Spot {
     x: f64,
     y_squared: f64,
@@ -125,8 +123,8 @@ struct Disc {
 }
 
 impl Disc {
-    /// With nodes that resolve `width`, along the radius and, by symmetry over
-    /// half a turn, around.
+    /// Places nodes that resolve `width`, along the radius and, by symmetry over half a turn,
+    /// around.
     fn new(
         width: f64,
         reach: f64,
@@ -154,8 +152,8 @@ impl Disc {
         Disc { spots, area, mean }
     }
 
-    /// The squared residual, scale and offset being the best, of a fitted lobe
-    /// with the logarithm of its roughness and its place on the x axis.
+    /// Returns the squared residual, at the best scale and offset, of a fitted lobe with the
+    /// logarithm of its roughness and its place on the x axis.
     fn misfit(&self, log_roughness: f64, shift: f64) -> f64 {
         let alpha = (2.0 * log_roughness.min(0.0)).exp();
         let fitted = |spot: &Spot| kernel(alpha, (spot.x - shift).powi(2) + spot.y_squared);
@@ -176,7 +174,7 @@ impl Disc {
         pairs().map(residual).sum()
     }
 
-    /// The logarithm of the best roughness near that of the law, up to 1.
+    /// Returns the logarithm of the best roughness near that of the law, up to 1.
     fn best_start(&self, law: f64) -> f64 {
         let candidate = |k: i32| (law.ln() + 0.1 * f64::from(k)).min(0.0);
         let misfits = (-10..=10).map(|k| (self.misfit(candidate(k), 0.0), candidate(k)));

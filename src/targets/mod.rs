@@ -1,8 +1,16 @@
-//! Ground truths to search formulas for: what there is, with which
-//! parameters, and how to make the datasets.
+//! Ground truths to search formulas for: the targets, their parameters, and the generators of their
+//! datasets.
 //!
-//! A [`Recipe`] names a target and its parameters; [`generate`] makes the
-//! dataset from it.
+//! A [`Recipe`] names a target and its parameters; [`generate`] makes the dataset from it.
+//!
+//! ```
+//! use lgp::targets::{Recipe, generate};
+//!
+//! let recipe = Recipe::parse("(target: \"smith_g1\", points: 8)")?;
+//! let data = generate(&recipe, &|_, _| ())?;
+//! assert_eq!((data.inputs.len(), data.search.rows()), (2, 8 * 8));
+//! # Ok::<(), lgp::targets::Error>(())
+//! ```
 
 pub mod area_light;
 pub mod area_norm;
@@ -30,16 +38,18 @@ use crate::dataset::Dataset;
 /// A ground truth that [`generate`] can make.
 #[derive(Debug)]
 pub struct Target {
+    /// The name in recipes, an identifier.
     pub name: &'static str,
-    /// One line.
+    /// A description of one line.
     pub description: &'static str,
-    /// Names of the columns, `inputs → outputs`.
+    /// The names of the columns, `inputs → outputs`.
     pub columns: &'static str,
+    /// The parameters that a recipe may set.
     pub parameters: &'static [Parameter],
     generate: fn(&Recipe, Progress) -> Result<Dataset, Error>,
 }
 
-/// Called with the work units done so far and their total, from any thread.
+/// A function called with the work units done so far and their total, from any thread.
 pub type Progress<'a> = &'a (dyn Fn(usize, usize) + Sync);
 
 const fn points(default: &'static str, most: usize) -> Parameter {
@@ -51,27 +61,34 @@ const fn points(default: &'static str, most: usize) -> Parameter {
     }
 }
 
-/// What may be chosen about a target.
+/// A parameter of a target.
 #[derive(Debug)]
 pub struct Parameter {
+    /// The name in recipes, an identifier.
     pub name: &'static str,
+    /// A description of one line.
     pub description: &'static str,
+    /// The value if a recipe sets none.
     pub default: &'static str,
+    /// The values that it may have.
     pub choices: Choices,
 }
 
-/// The values a parameter may have.
+/// The values that a parameter may have.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Choices {
+    /// One of these words.
     OneOf(&'static [&'static str]),
-    /// A whole number from `least` to `most`.
+    /// A whole number.
     Count {
+        /// The least.
         least: usize,
+        /// The largest.
         most: usize,
     },
 }
 
-/// All targets.
+/// Returns all targets.
 pub fn targets() -> &'static [Target] {
     &[
         dfg::TARGET,
@@ -88,12 +105,12 @@ pub fn targets() -> &'static [Target] {
     ]
 }
 
-/// Makes the dataset a recipe describes, on all of rayon's threads, the same
-/// at any number of them. It is named after its target; give it another name
-/// before saving it under another one.
+/// Makes the dataset that a recipe describes, on all of rayon's threads; their number does not
+/// change it. It is named after its target: rename it before saving it under another name.
 ///
 /// # Errors
-/// A ground truth whose estimated error is larger than its target allows; a claim that is none.
+/// A ground truth whose estimated error is larger than its target allows; a text that is not a
+/// claim.
 pub fn generate(recipe: &Recipe, progress: Progress) -> Result<Dataset, Error> {
     let mut dataset = (recipe.target().generate)(recipe, progress)?;
     recipe.claims.iter().try_for_each(|claim| dataset.claim(claim))?;

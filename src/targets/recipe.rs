@@ -1,3 +1,5 @@
+//! Recipes: targets with values for their parameters.
+
 use super::sampling::{SAMPLING, SAMPLING_SEED};
 use super::{Choices, Error, Parameter, Target, targets};
 use crate::dataset::{LARGEST_TEXT, Origin, read_text};
@@ -5,15 +7,15 @@ use ron::value::{Map, Value};
 use std::fmt;
 use std::path::Path;
 
-/// A target and a value for each of its parameters. As text it is RON:
-/// `(target: "dfg", masking: "correlated", alpha: "roughness^2", points: 64)`;
-/// parameters left out have their defaults. `claims: ["y: scale >= bias"]` claims more of the outputs.
+/// A target and a value for each of its parameters. As text it is RON: `(target: "dfg", masking:
+/// "correlated", alpha: "roughness^2", points: 64)`; parameters left out have their defaults.
+/// `claims: ["y: scale >= bias"]` adds claims of the outputs.
 #[derive(Clone, Debug)]
 pub struct Recipe {
     target: &'static Target,
-    /// One a parameter, in the target's order, each among its choices.
+    /// One value per parameter, in the target's order, each among its choices.
     values: Vec<String>,
-    /// What is claimed of the outputs beside what the target does ([`crate::program::Claim`]).
+    /// Claims of the outputs besides the target's own ([`crate::program::Claim`]).
     pub claims: Vec<String>,
 }
 
@@ -26,10 +28,10 @@ impl PartialEq for Recipe {
 }
 
 impl Recipe {
-    /// A target with the defaults of its parameters.
+    /// Makes a recipe of a target with the defaults of its parameters.
     ///
     /// # Errors
-    /// No target of that name.
+    /// [`Error::UnknownTarget`].
     pub fn new(target: &str) -> Result<Recipe, Error> {
         let known = targets().iter().find(|known| known.name == target);
         let target = known.ok_or_else(|| Error::unknown_target(target))?;
@@ -77,11 +79,10 @@ impl Recipe {
             .map_err(|error| Error::In { path: path.into(), error: Box::new(error) })
     }
 
-    /// Gives a parameter another value.
+    /// Sets a parameter.
     ///
     /// # Errors
-    /// An unknown parameter, or a value that is not among its choices; both
-    /// name what there is.
+    /// An unknown parameter, or a value that is not among its choices; both list what is known.
     pub fn set(&mut self, parameter: &str, value: &str) -> Result<(), Error> {
         let index = self.target.parameters.iter().position(|known| known.name == parameter);
         let Some(index) = index else {
@@ -92,33 +93,34 @@ impl Recipe {
         Ok(())
     }
 
+    /// Returns the target.
     pub fn target(&self) -> &'static Target {
         self.target
     }
 
-    /// The value of a parameter, if the target has one of that name.
+    /// Returns the value of a parameter, if the target has one of that name.
     pub fn get(&self, parameter: &str) -> Option<&str> {
         let index = self.target.parameters.iter().position(|known| known.name == parameter)?;
         self.values.get(index).map(String::as_str)
     }
 
-    /// Where rows come from that are made by it, with the error measured.
+    /// Returns the origin of rows made by it, with the measured error.
     pub(super) fn origin(&self, error: impl Into<String>) -> Origin {
         Origin::Target { recipe: self.to_string(), error: error.into() }
     }
 
-    /// The value of a parameter that is a [`Choices::Count`]; 0 of any other.
+    /// Returns the value of a parameter that is a [`Choices::Count`]; 0 for any other.
     pub(super) fn count(&self, parameter: &str) -> usize {
         self.get(parameter).and_then(|text| text.parse().ok()).unwrap_or(0)
     }
 }
 
-/// RON that [`Recipe::parse`] reads back.
+/// Formats as RON that [`Recipe::parse`] reads back.
 impl fmt::Display for Recipe {
     fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
         write!(f, "(target: {:?}", self.target.name)?;
         let pairs = self.target.parameters.iter().zip(&self.values);
-        // Most recipes sample regularly, and say nothing about it.
+        // Regular sampling is not mentioned: most recipes have it.
         let said = |(parameter, value): &(&Parameter, &String)| {
             ![SAMPLING.name, SAMPLING_SEED.name].contains(&parameter.name)
                 || **value != parameter.default
@@ -150,7 +152,7 @@ fn is_text(value: &Value, text: &str) -> bool {
     matches!(value, Value::String(string) if string == text)
 }
 
-/// A scalar as it would be given on the command line.
+/// Formats a scalar as on the command line.
 fn plain(value: &Value) -> String {
     match value {
         Value::String(text) => text.clone(),

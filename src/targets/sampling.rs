@@ -1,4 +1,4 @@
-//! Where the search split samples its domain, as points of the unit cube.
+//! Samples the domain of the search split, as points of the unit cube.
 //!
 //! | `--set sampling=` | points | weights |
 //! |---|---|---|
@@ -15,10 +15,10 @@ use crate::num::low_discrepancy::{Sobol, jittered_grid};
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 
-/// The most inputs of a target.
+/// The most inputs of a target. By hand: the targets so sampled have three.
 const MOST_AXES: usize = 4;
-/// The part of the adaptive samples that is spread evenly: no weight exceeds its
-/// inverse.
+/// The part of the adaptive samples that is spread evenly: no weight exceeds its inverse. By hand,
+/// unmeasured.
 const EVEN_PART: f64 = 0.25;
 const REGULAR: &str = "regular";
 const JITTERED: &str = "jittered";
@@ -34,7 +34,7 @@ pub(super) const SAMPLING: Parameter = Parameter {
 
 pub(super) const SAMPLING_SEED: Parameter = Parameter {
     name: "sampling_seed",
-    description: "of random samples (jittered, adaptive)",
+    description: "seed of random samples (jittered, adaptive)",
     default: "0",
     choices: Choices::Count { least: 0, most: u32::MAX as usize },
 };
@@ -48,7 +48,7 @@ pub(super) enum Sampling {
 }
 
 impl Sampling {
-    /// Regular where the target has no such parameter.
+    /// Returns the recipe's sampling; regular if the target has no such parameter.
     pub(super) fn of(recipe: &Recipe) -> Sampling {
         match recipe.get(SAMPLING.name) {
             Some(JITTERED) => Sampling::Jittered,
@@ -59,7 +59,7 @@ impl Sampling {
     }
 }
 
-/// Points of the unit cube, and their weights, none for equal ones.
+/// Points of the unit cube, and their weights, empty if equal.
 pub(super) struct Samples {
     pub points: Vec<Vec<f64>>,
     pub weights: Vec<f32>,
@@ -73,7 +73,7 @@ pub(super) fn jittered(cells: usize, axes: usize, seed: u64) -> Samples {
     Samples { points: (0..count(cells, axes)).map(point).collect(), weights: Vec::new() }
 }
 
-/// Sobol's points in the middle of their intervals: none is at an edge.
+/// Returns Sobol's points in the middle of their intervals, so that none is at an edge.
 pub(super) fn low_discrepancy(cells: usize, axes: usize) -> Samples {
     let sobol = Sobol::<MOST_AXES>::new();
     let count = count(cells, axes);
@@ -82,11 +82,10 @@ pub(super) fn low_discrepancy(cells: usize, axes: usize) -> Samples {
     Samples { points: (0..count).map(point).collect(), weights: Vec::new() }
 }
 
-/// As many points as cells, distributed over the cells by the gradient of
-/// `outputs`, given at the centres of a regular grid, the last axis varying
-/// fastest. Each output counts relative to its range. A point weighs one over
-/// its density, so that weighted means over the points have the mean over the
-/// domain as their expectation.
+/// Distributes as many points as cells over the cells by the gradient of `outputs`, given at the
+/// centres of a regular grid, the last axis varying fastest. Each output counts relative to its
+/// range. A point weighs one over its density, so that weighted means over the points have the mean
+/// over the domain as their expectation.
 pub(super) fn adaptive(cells: usize, axes: usize, outputs: &[Vec<f32>], seed: u64) -> Samples {
     let mut rng = ChaCha8Rng::seed_from_u64(seed);
     let steepness = steepness(cells, axes, outputs);
@@ -96,7 +95,8 @@ pub(super) fn adaptive(cells: usize, axes: usize, outputs: &[Vec<f32>], seed: u6
         true => EVEN_PART + (1.0 - EVEN_PART) * steepness[cell] / mean,
         false => 1.0,
     };
-    // Systematic sampling: of equal steps through the summed densities, those in a cell are its.
+    // Systematic sampling: a cell gets the equal steps through the summed densities that fall into
+    // it.
     let (mut points, mut weights) = (Vec::with_capacity(count), Vec::with_capacity(count));
     let (mut sum, offset) = (0.0, rng.random::<f64>());
     for cell in 0..count {
@@ -113,13 +113,13 @@ fn count(cells: usize, axes: usize) -> u64 {
     (cells as u64).pow(axes as u32)
 }
 
-/// A random point of a cell.
+/// Draws a point of a cell.
 fn inside(cell: usize, cells: usize, axes: usize, rng: &mut ChaCha8Rng) -> Vec<f64> {
     let index = |axis: usize| cell / cells.pow((axes - 1 - axis) as u32) % cells;
     (0..axes).map(|axis| (index(axis) as f64 + rng.random::<f64>()) / cells as f64).collect()
 }
 
-/// The length of each cell's gradient, by differences between its neighbours.
+/// Returns the length of each cell's gradient, by differences between its neighbours.
 fn steepness(cells: usize, axes: usize, outputs: &[Vec<f32>]) -> Vec<f64> {
     let mut squares = vec![0.0; outputs.first().map_or(0, Vec::len)];
     for output in outputs {

@@ -1,11 +1,12 @@
-//! Minimum of a function of one or two variables.
+//! Minimises a function of one or two variables.
 
+/// By hand, unmeasured.
 const MOST_STEPS: usize = 300;
-/// The simplex has shrunk to this.
+/// The size of the simplex at which it stops.
 const PRECISION: f64 = 1e-10;
 
-/// The method of Nelder and Mead, "A Simplex Method for Function
-/// Minimization", 1965, from `start` and points a `step` away along each axis.
+/// Minimises by the method of Nelder and Mead, "A Simplex Method for Function Minimization", 1965,
+/// from `start` and points a `step` away along each axis.
 pub(super) fn minimum<const D: usize>(
     start: [f64; D],
     step: f64,

@@ -9,7 +9,7 @@ use super::{Error, Progress, Recipe, Target, points};
 use crate::dataset::{Axis, Dataset};
 use crate::microfacet::ggx;
 
-/// In place of n·v = 0, where g1 is 0 for all α but 0.
+/// Sampled instead of n·v = 0, where g1 is 0 for all α but 0.
 const GRAZING: f64 = 0.001;
 
 pub(super) const TARGET: Target = Target {
@@ -23,7 +23,7 @@ pub(super) const TARGET: Target = Target {
 /// Makes the dataset on [0, 1]², with n·v = .001 in place of 0.
 ///
 /// # Errors
-/// None but a bug.
+/// None that a recipe can cause.
 pub fn generate(recipe: &Recipe, progress: Progress) -> Result<Dataset, Error> {
     let table = Table {
         recipe,

@@ -10,7 +10,7 @@ use super::{Choices, Error, Parameter, Progress, Recipe, Target, points};
 use crate::dataset::{Axis, Dataset};
 use crate::microfacet::ggx;
 
-/// In place of a cosine of 0, where g2 is 0 for all α but 0.
+/// Sampled instead of a cosine of 0, where g2 is 0 for all α but 0.
 const GRAZING: f64 = 0.001;
 const CORRELATED: &str = "correlated";
 const SEPARABLE: &str = "separable";
@@ -36,7 +36,7 @@ pub(super) const TARGET: Target = Target {
 /// Makes the dataset on [0, 1]³, with cosines of .001 in place of 0.
 ///
 /// # Errors
-/// None but a bug.
+/// None that a recipe can cause.
 pub fn generate(recipe: &Recipe, progress: Progress) -> Result<Dataset, Error> {
     let g2 = match recipe.get("masking") {
         Some(SEPARABLE) => ggx::g2_separable,

@@ -1,4 +1,4 @@
-//! From a function of a few inputs to its dataset.
+//! Makes the dataset of a function of a few inputs.
 
 use super::sampling::{SAMPLING_SEED, Samples, Sampling, adaptive, jittered, low_discrepancy};
 use super::{Error, Progress, Recipe};
@@ -6,10 +6,10 @@ use crate::dataset::{Axis, Dataset, Spacing, Split, combinations, grid_weights};
 use rayon::prelude::*;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
-/// The length each node stands for (trapezoidal rule), scaled to mean 1.
+/// Returns the length each node stands for (trapezoidal rule), scaled to mean 1.
 fn lengths(axis: &Axis, nodes: &[f32]) -> Vec<f64> {
     let last = nodes.len().saturating_sub(1);
-    // A coordinate whose differences are the axis' lengths.
+    // A coordinate whose differences are the axis's lengths.
     let node = |index: usize| match axis.spacing {
         Spacing::Linear => f64::from(nodes[index]),
         Spacing::Logarithmic => f64::from(nodes[index]).ln(),
@@ -21,9 +21,8 @@ fn lengths(axis: &Axis, nodes: &[f32]) -> Vec<f64> {
     lengths.iter().map(|length| length / mean).collect()
 }
 
-/// About as many intervals as asked for, whose ends no centre of `points`
-/// cells meets: k/100 cannot meet those of 4m cells, and k/n with n odd none,
-/// whose denominators are even.
+/// Returns about as many intervals as asked for, whose ends meet no centre of `points` cells: k/100
+/// cannot meet those of 4m cells, nor k/n with n odd any, whose denominators are even.
 fn intervals_between(points: usize, about: usize) -> usize {
     match about {
         100 if points.is_multiple_of(4) => 100,
@@ -32,30 +31,29 @@ fn intervals_between(points: usize, about: usize) -> usize {
     }
 }
 
-/// What a target is as a table.
+/// A target as a table.
 pub(super) struct Table<'a> {
     pub recipe: &'a Recipe,
-    /// The first varies slowest.
+    /// The inputs; the first varies slowest.
     pub axes: &'a [Axis],
-    /// Names and units.
+    /// The outputs' names and units.
     pub outputs: &'a [(&'static str, &'static str)],
-    /// Points along each axis of the search grid.
+    /// The points along each axis of the search grid.
     pub points: usize,
-    /// Largest estimated error that is accepted.
+    /// The largest accepted estimated error.
     pub allowed_error: f64,
 }
 
-/// The values at a point, and the estimated absolute error of any.
+/// The values at a point, and the estimated absolute error of each.
 pub(super) struct Sample<const N: usize> {
     pub values: [f64; N],
     pub error: f64,
 }
 
 impl Table<'_> {
-    /// Search split at the cell centres of a regular grid, unweighted, or as
-    /// the recipe's sampling says; validation split at the nodes of another,
-    /// denser grid, edges included, weighted by area (trapezoidal, mean 1). No
-    /// point of the two grids is in both.
+    /// Makes the dataset: search split at the cell centres of a regular grid, unweighted, or as the
+    /// recipe's sampling says; validation split at the nodes of another, denser grid, edges
+    /// included, weighted by area (trapezoidal, mean 1). The two grids share no point.
     ///
     /// # Errors
     /// An estimated error above the allowed one.
@@ -112,7 +110,7 @@ impl Table<'_> {
         self.recipe.count(SAMPLING_SEED.name) as u64
     }
 
-    /// The function on a full grid, and the largest estimated error.
+    /// Evaluates the function on a full grid; returns the largest estimated error, too.
     fn grid<const N: usize>(
         &self,
         along: &[Vec<f32>],
@@ -124,7 +122,7 @@ impl Table<'_> {
         Ok((split, error))
     }
 
-    /// The function at points of the unit cube.
+    /// Evaluates the function at points of the unit cube.
     fn scattered<const N: usize>(
         &self,
         samples: Samples,
@@ -140,7 +138,7 @@ impl Table<'_> {
         Ok((split, error))
     }
 
-    /// The function at points, in so many slices of equal size.
+    /// Evaluates the function at points, in slices of equal size.
     fn split<const N: usize>(
         &self,
         points: &[Vec<f32>],
@@ -177,7 +175,7 @@ impl Table<'_> {
     }
 
     fn check_accuracy(&self, point: &[f32], error: f64) -> Result<(), Error> {
-        // An error that is no number is refused, too.
+        // An error of NaN is refused, too.
         if error <= self.allowed_error {
             return Ok(());
         }

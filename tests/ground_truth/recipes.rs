@@ -56,8 +56,8 @@ fn unusable_recipes_are_refused() {
         ("(points: 3)", "names no target; begin it with"),
         ("(target: 3)", "names no target"),
         ("(target: \"dgf\")", "did you mean `dfg`?"),
-        ("(target: \"dfg\", points: 2.5)", "`2.5` is no value of parameter `points`"),
-        ("(target: \"dfg\", points: [2])", "is no value of parameter `points`"),
+        ("(target: \"dfg\", points: 2.5)", "`2.5` is not a value of parameter `points`"),
+        ("(target: \"dfg\", points: [2])", "is not a value of parameter `points`"),
         ("(target: \"dfg\", colour: 1)", "its parameters are masking, alpha, points"),
     ];
     for (text, expected) in cases {

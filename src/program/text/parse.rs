@@ -123,8 +123,7 @@ pub fn parse_template(text: &str, scope: Scope) -> Result<Parsed, ParseError> {
     parser.finish()
 }
 
-/// The most bytes of a formula; longer text is refused unread. By hand: more than the largest
-/// program needs.
+/// The most bytes of a formula; longer text is refused unread. By hand.
 pub const MAX_FORMULA: usize = 1 << 20;
 
 fn first_places(names: &[String]) -> HashMap<String, usize> {

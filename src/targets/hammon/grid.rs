@@ -1,4 +1,4 @@
-//! Where the lobes are sampled.
+//! The grids on which lobes are sampled.
 
 use super::{Lobe, Microsurface, Sampler, lobes};
 use crate::dataset::Split;
@@ -7,22 +7,23 @@ use crate::quadrature::Estimate;
 use glam::DVec3;
 use rayon::prelude::*;
 
-/// Standard error, in 1/sr, at which a row counts half: that of a good formula.
+/// The standard error, in 1/sr, at which a row counts half: about the error of a good formula. By
+/// hand.
 const TOLERABLE: f64 = 0.005;
 
-/// Every combination of a width, an angle of the light, one of the view and an
-/// azimuth between them, 0 if they are on the same side. Angles in radians.
+/// Every combination of a width, an angle of the light, one of the view, and an azimuth between
+/// them, which is 0 if they are on the same side. Angles in radians.
 pub(super) struct Grid {
     alphas: Vec<f64>,
     /// From the normal, of light and view alike.
     angles: Vec<f64>,
     azimuths: Vec<f64>,
-    /// Whether rows weigh what their cells measure.
+    /// True if rows are weighted by the measure of their cells.
     by_cell: bool,
 }
 
 impl Grid {
-    /// 3584 rows, centres of cells but for the azimuths.
+    /// 3584 rows: centres of cells, except along the azimuth.
     pub(super) fn fine() -> Grid {
         Grid {
             alphas: (0..8).map(|i| (f64::from(i) + 0.5) / 8.0).collect(),
@@ -42,7 +43,7 @@ impl Grid {
         }
     }
 
-    /// 6561 rows with the ends of every axis, none of them in another grid.
+    /// 6561 rows, with the ends of every axis; none is in another grid.
     pub(super) fn validation() -> Grid {
         let angle = |i: i32| (f64::from(i) * 11.25).min(89.0).to_radians();
         Grid {
@@ -53,7 +54,7 @@ impl Grid {
         }
     }
 
-    /// Widths and angles of the light.
+    /// Returns the widths and angles of the light.
     pub(super) fn lights(&self) -> Vec<(f64, f64)> {
         let with = |&alpha| self.angles.iter().map(move |&angle| (alpha, angle));
         self.alphas.iter().flat_map(with).collect()
@@ -64,8 +65,8 @@ impl Grid {
         self.angles.iter().flat_map(with).collect()
     }
 
-    /// The lobes of all rows, the azimuth varying fastest. Each light has a stream
-    /// of random numbers from `first_stream` on.
+    /// Traces the lobes of all rows, the azimuth varying fastest. Each light has a stream of random
+    /// numbers of its own, from `first_stream` on.
     pub(super) fn trace(
         &self,
         sampler: Sampler,
@@ -91,12 +92,12 @@ impl Grid {
         of_lights.into_iter().flatten().collect()
     }
 
-    /// How many of its lights need paths.
+    /// Counts the lights that need paths.
     pub(super) fn rough_lights(&self) -> usize {
         self.lights().iter().filter(|(alpha, _)| *alpha > 0.0).count()
     }
 
-    /// The lobes of all rows as a table.
+    /// Returns the lobes of all rows as a table.
     pub(super) fn split(&self, lobes: &[Lobe], standard_errors_as_columns: bool) -> Split {
         let mut columns = vec![Vec::new(); if standard_errors_as_columns { 9 } else { 7 }];
         let mut weights = Vec::new();
@@ -130,7 +131,7 @@ impl Grid {
         Split { columns, weights, standard_errors, ..Split::default() }
     }
 
-    /// What the rows' cells measure (trapezoidal), up to a factor.
+    /// Returns the measures of the rows' cells (trapezoidal), up to a factor.
     fn cells(&self) -> Vec<f64> {
         [&self.alphas, &self.angles, &self.angles, &self.azimuths].into_iter().fold(
             vec![1.0],
@@ -148,7 +149,7 @@ fn direction(angle: f64, azimuth: f64) -> DVec3 {
     DVec3::new(angle.sin() * azimuth.cos(), angle.sin() * azimuth.sin(), angle.cos())
 }
 
-/// The limit of a smooth surface, but for the mirror's own direction.
+/// The limit of a smooth surface, without the mirrored direction.
 fn flat(n_dot_l: f64, n_dot_v: f64) -> Lobe {
     let exactly = |value| Estimate { value, error: 0.0, evaluations: 0 };
     Lobe {

@@ -1,18 +1,17 @@
 //! Light on a surface that exists only as mathematics: GGX normals, independent
 //! of each other and of height, with Smith's masking.
 //!
-//! Heights enter through f alone, the fraction of the surface that is lower. From
-//! a height f a ray at cosine c from the normal is still free at f' with the
-//! probability `(f / f')^Λ(c)`, Λ(-c) = -1 - Λ(c) downwards (Hammon, "PBR Diffuse
-//! Lighting for GGX+Smith Microsurfaces", 2017, appendix; Heitz, Hanika, d'Eon,
-//! Dachsbacher, "Multiple-Scattering Microfacet BSDFs with the Smith Model",
-//! 2016). A facet reflects with Schlick's probability, or else lets light through
-//! to a Lambertian interior that absorbs nothing, and out of it again by the lobe
-//! of [`sampling::transmitted`].
+//! Heights enter through f alone, the fraction of the surface that is lower. A ray from a height f
+//! at cosine c from the normal is still free at f' with the probability `(f / f')^Λ(c)`, and
+//! `Λ(-c) = -1 - Λ(c)` downwards (Hammon, "PBR Diffuse Lighting for GGX+Smith Microsurfaces",
+//! 2017, appendix; Heitz, Hanika, d'Eon, Dachsbacher, "Multiple-Scattering Microfacet BSDFs with
+//! the Smith Model", 2016). A facet reflects with Schlick's probability, or else lets light through
+//! to a Lambertian interior that absorbs nothing, and out of it again by the lobe of
+//! [`sampling::transmitted`].
 //!
-//! Paths start at the light. Wherever one meets a facet, what would go from there
-//! to each view, unhindered, is added up (next-event estimation): from the
-//! interior, and by the facet whose normal is the half-vector.
+//! Paths start at the light. At each facet that a path meets, the light that would go from there to
+//! each view, unhindered, is added up (next-event estimation): from the interior, and from the
+//! facet whose normal is the half-vector.
 
 use crate::microfacet::half_vector::{reflect, reflection_jacobian};
 use crate::microfacet::{diffuse, fresnel, ggx, sampling, sine_squared};
@@ -22,25 +21,26 @@ use rand::{Rng, RngExt};
 /// Schlick's reflectance at normal incidence: water, as on the slides.
 pub const F0: f64 = 0.02;
 
-/// How the normal of a facet that a ray meets is chosen.
+/// The distribution of the normals of facets that a ray meets.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Sampler {
-    /// As Smith's masking implies, by its projected area: `<w·m> D(m)`. Light is
-    /// conserved and the result reciprocal.
+    /// By projected area, `<w·m> D(m)`, as Smith's masking implies. Light is conserved and the
+    /// result reciprocal.
     Exact,
-    /// As the slides say: by `D(m) (n·m)` among the facets that face the ray. A
-    /// normal that does not is tried again with its azimuth negated, if the ray
-    /// rises; that mirrors it at the plane of x, not of the ray, and favours some
-    /// azimuths; what a facet reflects to a view is weighed without that favour.
-    /// The published constants come from this one, with light in the plane of x.
-    /// It is not reciprocal.
+    /// By `D(m) (n·m)` among the facets that face the ray, as the slides say. A normal that does
+    /// not face it is tried again with its azimuth negated, if the ray rises. That mirrors it at
+    /// the plane of x, not of the ray, and favours some azimuths; light that a facet reflects to a
+    /// view is weighted without that bias. The published constants come from this sampler, with
+    /// light in the plane of x. It is not reciprocal.
     Literal,
 }
 
-/// A GGX microsurface; `alpha` in (0, 1].
+/// A GGX microsurface.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Microsurface {
+    /// The width, in (0, 1].
     pub alpha: f64,
+    /// The distribution of normals that rays meet.
     pub sampler: Sampler,
 }
 
@@ -73,14 +73,14 @@ impl Light {
 }
 
 impl Microsurface {
-    /// A view in a direction above the horizon.
+    /// Prepares a view in a direction above the horizon.
     pub fn view(&self, direction: DVec3) -> View {
         View { direction, lambda: ggx::lambda(direction.z, self.alpha) }
     }
 
-    /// Follows one path of the light from direction `l`, above the horizon, until
-    /// it leaves, and adds what it gives to each view to `light`, which has as
-    /// many elements. Returns how often it was transmitted.
+    /// Follows one path of the light from direction `l`, above the horizon, until it leaves, and
+    /// adds its light towards each view to `light`, which has as many elements. Returns how often
+    /// it was transmitted.
     pub fn trace(&self, l: DVec3, views: &[View], rng: &mut impl Rng, light: &mut [Light]) -> u32 {
         let (mut w, mut height, mut transmissions) = (l, 1.0, 0);
         while let Some(met) = self.next_height(height, -w.z, 1.0 - rng.random::<f64>()) {
@@ -105,9 +105,8 @@ impl Microsurface {
         transmissions
     }
 
-    /// The height at which a ray from `height` with direction cosine `cosine`
-    /// meets the surface, its chance of getting further being `survival`
-    /// in (0, 1]; `None` if it leaves.
+    /// Returns the height at which a ray from `height` with direction cosine `cosine` meets the
+    /// surface, if its chance of getting further is `survival` in (0, 1]; `None` if it leaves.
     fn next_height(&self, height: f64, cosine: f64, survival: f64) -> Option<f64> {
         let root = self.root(cosine);
         if cosine <= 0.0 {
@@ -125,9 +124,8 @@ impl Microsurface {
         (cosine * cosine + self.alpha * self.alpha * sine_squared(cosine)).sqrt()
     }
 
-    /// The facets that face w, above the horizon or below: their projected area
-    /// `∫ <w·m> D dm`, or the part `∫ D (n·m) dm` of the macrosurface that they
-    /// cover.
+    /// Returns the facets that face w, above the horizon or below: their projected area `∫ <w·m> D
+    /// dm`, or the part `∫ D (n·m) dm` of the macrosurface that they cover.
     fn facing(&self, w: DVec3) -> f64 {
         let root = self.root(w.z);
         let sum = match w.z < 0.0 {
@@ -141,7 +139,7 @@ impl Microsurface {
         }
     }
 
-    /// A normal that faces w.
+    /// Draws a normal that faces w.
     fn normal(&self, w: DVec3, rng: &mut impl Rng) -> DVec3 {
         match self.sampler {
             Sampler::Exact => sampling::visible_ggx(rng.random(), w, self.alpha),
@@ -166,7 +164,7 @@ impl Microsurface {
         }
     }
 
-    /// What the facets that mirror w to a view reflect to it.
+    /// Returns the light that facets reflect from w to a view.
     fn reflected(&self, w: DVec3, facing: f64, view: &View, log_height: f64) -> f64 {
         let sum = w + view.direction;
         if sum.z <= 0.0 {
@@ -188,13 +186,13 @@ impl Microsurface {
 }
 
 impl View {
-    /// Probability of reaching the view from a height, over n·v.
+    /// Returns the probability of reaching the view from a height, over n·v.
     fn escape(&self, log_height: f64) -> f64 {
         (self.lambda * log_height).exp() / self.direction.z
     }
 }
 
-/// What leaves the interior behind a facet towards a view.
+/// Returns the light that leaves the interior behind a facet towards a view.
 fn emitted(m: DVec3, view: &View, log_height: f64) -> f64 {
     let cosine = m.dot(view.direction);
     if cosine <= 0.0 {
@@ -204,7 +202,7 @@ fn emitted(m: DVec3, view: &View, log_height: f64) -> f64 {
     lobe * cosine * view.escape(log_height)
 }
 
-/// A direction given in the frame of a normal.
+/// Rotates a direction from the frame of a normal.
 fn around(m: DVec3, local: DVec3) -> DVec3 {
     let (a, b) = m.any_orthonormal_pair();
     (local.x * a + local.y * b + local.z * m).normalize()

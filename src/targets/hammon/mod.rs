@@ -1,14 +1,12 @@
-//! Diffuse light from a rough dielectric: what GGX facets, each a Fresnel interface
-//! above a white Lambertian interior, send back after one transmission and after
-//! several.
+//! Diffuse light from a rough dielectric: GGX facets, each a Fresnel interface above a white
+//! Lambertian interior, return it after one transmission or after several.
 //!
-//! Source: Hammon, "PBR Diffuse Lighting for GGX+Smith Microsurfaces", 2017, whose
-//! fit is [`crate::microfacet::diffuse::Hammon`]. Definition and method:
-//! [`microsurface`]. An albedo ρ makes of them ρ single + ρ² multi, to first order
-//! as on the slides.
+//! Source: Hammon, "PBR Diffuse Lighting for GGX+Smith Microsurfaces", 2017, whose fit is
+//! [`crate::microfacet::diffuse::Hammon`]. Definition and method: [`microsurface`]. An albedo ρ
+//! turns them into ρ single + ρ² multi, to first order as on the slides.
 //!
-//! All views of one light share its paths; blocks of them have a ChaCha8 stream
-//! each, and are added up in order, so that the number of threads changes nothing.
+//! All views of one light share its paths. Blocks of paths have a ChaCha8 stream each and are added
+//! in order, so that the number of threads changes nothing.
 
 mod grid;
 pub mod microsurface;
@@ -27,7 +25,7 @@ use rayon::prelude::*;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
 const SEED: u64 = 2017;
-/// Blocks that the paths of a light are divided into.
+/// Blocks of paths per light: more than the threads of most machines. By hand.
 const BLOCKS: usize = 32;
 const EXACT: &str = "exact";
 const LITERAL: &str = "literal";
@@ -72,15 +70,17 @@ pub(super) const TARGET: Target = Target {
 /// Mean light in a direction, in 1/sr, each with its standard error.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Lobe {
+    /// Reflected only.
     pub specular: Estimate,
+    /// Transmitted once.
     pub single: Estimate,
+    /// Transmitted twice or more.
     pub multi: Estimate,
 }
 
-/// The lobes towards `views` of light from `l`, all above the horizon, over so many
-/// `paths`. `stream` chooses the random numbers: the same one gives the same lobes
-/// at any number of threads. `after_block` is called after each block of paths, from
-/// any thread.
+/// Traces `paths` of light from `l` and returns the lobes towards `views`, all above the horizon.
+/// `stream` chooses the random numbers: the same one gives the same lobes at any number of threads.
+/// `after_block` is called after each block of paths, from any thread.
 pub fn lobes(
     surface: Microsurface,
     l: DVec3,
@@ -125,7 +125,7 @@ fn trace(
     sums
 }
 
-/// Sums over paths of what each gives, and of its square.
+/// Sums over paths of the light, and of its square.
 #[derive(Clone, Copy, Default)]
 struct Sums {
     specular: [f64; 2],
@@ -167,13 +167,13 @@ impl Sums {
     }
 }
 
-/// Makes the dataset: search split on the grid that the recipe names, unweighted but
-/// for standard errors beyond .005; validation split on 9 widths, 9 × 9 angles and 9
-/// azimuths with the ends of each, 89° in place of 90°, weighted by cell, too. The
-/// row of α = 0 is known in closed form ([`crate::microfacet::diffuse::under_interface`]).
+/// Makes the dataset: search split on the grid that the recipe names, weighted only by standard
+/// errors near or above .005; validation split on 9 widths, 9 × 9 angles and 9 azimuths with the
+/// ends of each, 89° instead of 90°, weighted by cell, too. The row of α = 0 is known in closed
+/// form ([`crate::microfacet::diffuse::under_interface`]).
 ///
 /// # Errors
-/// None but a bug.
+/// None that a recipe can cause.
 pub fn generate(recipe: &Recipe, progress: Progress) -> Result<Dataset, Error> {
     let sampler = match recipe.get("sampler") {
         Some(LITERAL) => Sampler::Literal,
