@@ -98,6 +98,7 @@ pub fn transmitted([u, w]: [f64; 2]) -> DVec3 {
 /// Returns the slope x whose cumulative density is `u`, for the density `max(0, cosine - sine x)
 /// exp(-x²)`, not normalised.
 fn gaussian_slope(u: f64, cosine: f64, sine: f64) -> f64 {
+    // exp(-x²) is below f64's rounding from here on.
     const FURTHEST: f64 = 6.5;
     let cumulative = |x: f64| 0.5 * (cosine * libm::erfc(-x) + sine * (-x * x).exp() / PI.sqrt());
     let end = if cosine < FURTHEST * sine { cosine / sine } else { FURTHEST };

@@ -135,8 +135,8 @@ pub(super) mod tests {
     use super::*;
     use std::f64::consts::PI;
 
-    /// Whether the rule integrates every polynomial of the degree exactly, and
-    /// where it is low no more.
+    /// Returns true if the rule integrates every polynomial of the degree exactly and, where it is
+    /// low, no more.
     pub fn assert_degree(rule: &Rule, degree: usize) {
         let error = |power: usize| {
             let expected = if power.is_multiple_of(2) { 2.0 / (power as f64 + 1.0) } else { 0.0 };

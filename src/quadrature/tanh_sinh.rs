@@ -85,6 +85,7 @@ impl TanhSinh {
         let mut estimates = [Estimate { value: 0.0, error: f64::INFINITY, evaluations: 0 }; N];
         for (level, nodes) in self.levels.iter().enumerate() {
             let step = half * 0.5_f64.powi(level as i32);
+            // By hand: thousands of such terms stay below the tolerance.
             let negligible = 1e-4 * tolerance / step.max(f64::MIN_POSITIVE);
             let left = |node: &Node| near_a(a, b, half * node.complement);
             let right = |node: &Node| near_b(a, b, half * node.complement);

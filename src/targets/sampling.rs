@@ -5,7 +5,7 @@
 //! | `regular` | cell centres of a grid | none |
 //! | `jittered` | one random point in each cell of the grid | none |
 //! | `low_discrepancy` | Sobol's sequence | none |
-//! | `adaptive` | more where the outputs' gradient is large | of one over the density |
+//! | `adaptive` | more where the outputs' gradient is large | one over the density |
 //!
 //! Pesce and Iwanicki, "Approximate Models for Physically Based Rendering",
 //! 2015, §3.1 and figure 21.

@@ -24,6 +24,7 @@ use rand_chacha::ChaCha8Rng;
 use rayon::prelude::*;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
+/// Any seed would do.
 const SEED: u64 = 2017;
 /// Blocks of paths per light: more than the threads of most machines. By hand.
 const BLOCKS: usize = 32;
