@@ -73,17 +73,19 @@ pub(super) struct File {
     merges: Merges,
     #[serde(default)]
     literal: Option<String>,
+    /// The measurements that its ranking was checked against.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub evidence: Option<Evidence>,
     /// The instructions that each operation becomes.
     operations: BTreeMap<String, BTreeMap<String, u32>>,
 }
 
-/// What a profile was held against: how it ranks formulas that a compiler for the chip has compiled.
+/// The evidence for a profile: its ranking of formulas, compared with code from a compiler for the
+/// chip.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Evidence {
-    /// Columns of `tests/reference/gpu_corpus.csv`; of several the largest counts.
+    /// The columns of `tests/reference/gpu_corpus.csv`; of several, the largest value counts.
     pub columns: Vec<String>,
     /// The least rank correlation (Spearman) that the profile must have with them.
     pub rank_correlation: f64,

@@ -71,7 +71,7 @@ impl Profile {
         Ok(Profile::single(Chip::parse(path, text)?))
     }
 
-    /// Returns what a profile of one chip was held against.
+    /// Returns the evidence for a profile of one chip, if there is any.
     pub fn evidence(&self) -> Option<&Evidence> {
         match self.chips.as_slice() {
             [(_, chip)] => chip.file.evidence.as_ref(),
