@@ -31,6 +31,9 @@
 //! | [`report`] | plots, maps, the page of a run, spheres |
 //! | [`cli`] | a file a subcommand |
 //!
+//! The features `report` and `cli`, on by default, are the last two rows and all that only they need: one crate with
+//! features, since every module above them is needed by a search, and a test holds the order.
+//!
 //! # Words
 //! | word | meaning |
 //! |---|---|
@@ -101,6 +104,8 @@ pub mod microfacet;
 pub mod quadrature;
 pub mod targets;
 
+#[cfg(feature = "report")]
 pub mod report;
 
+#[cfg(feature = "cli")]
 pub mod cli;

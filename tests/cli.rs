@@ -1,5 +1,7 @@
 //! The command line as a user meets it: exit codes, messages, and files left as they were.
 
+#![cfg(feature = "cli")]
+
 use assert_cmd::Command;
 use std::path::{Path, PathBuf};
 use tempfile::TempDir;

@@ -1,5 +1,7 @@
 //! `lgp check` as a user runs it.
 
+#![cfg(feature = "cli")]
+
 use assert_cmd::Command;
 use serde_json::Value;
 

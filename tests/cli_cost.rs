@@ -1,5 +1,7 @@
 //! `lgp cost` on the real command line.
 
+#![cfg(feature = "cli")]
+
 mod command;
 
 use command::{lgp_here, text};

@@ -1,5 +1,7 @@
 //! What a search leaves in its folder, whatever is there already and whatever becomes of the disk.
 
+#![cfg(feature = "cli")]
+
 mod command;
 
 use command::{command, lgp, text};

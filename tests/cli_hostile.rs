@@ -1,5 +1,7 @@
 //! The command line among files and names that mean it harm: nothing is written through, read for ever or
 //! taken for something else.
+
+#![cfg(feature = "cli")]
 #![cfg(unix)]
 
 use lgp::dataset::{Dataset, Origin, axis};

@@ -1,5 +1,7 @@
 //! `merge`, `analyze` and `emit --half` on the real command line.
 
+#![cfg(feature = "cli")]
+
 mod command;
 
 use command::{lgp, succeed, text};

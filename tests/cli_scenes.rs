@@ -1,5 +1,7 @@
 //! Scenes on the real command line.
 
+#![cfg(feature = "cli")]
+
 mod command;
 
 use command::{lgp, succeed, text};

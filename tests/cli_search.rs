@@ -1,5 +1,7 @@
 //! `search`, `front`, `emit` and `eval` on the real command line.
 
+#![cfg(feature = "cli")]
+
 mod command;
 
 use command::{lgp, text};

@@ -1,5 +1,7 @@
 //! `lgp verify` on the real command line: snippets as they are, and with what can go wrong in them.
 
+#![cfg(feature = "cli")]
+
 mod command;
 
 use command::{command, succeed, text};

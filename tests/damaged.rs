@@ -1,5 +1,7 @@
 //! Whatever the files of a run's folder hold, a command that reads them ends with a message, or does what it is for.
 
+#![cfg(feature = "cli")]
+
 mod command;
 
 use command::{lgp, succeed};

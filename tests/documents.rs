@@ -1,6 +1,8 @@
 //! What the README, the guide and the help texts say: every command in them is one, every link leads somewhere,
 //! and the program in the guide is the one that is compiled.
 
+#![cfg(feature = "cli")]
+
 #[path = "../examples/sampled_function.rs"]
 mod sampled_function;
 

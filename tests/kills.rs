@@ -3,6 +3,8 @@
 //! The process that is killed is this test itself, started again. `LGP_KILLS=all` kills at every operation, not
 //! at some spread evenly.
 
+#![cfg(feature = "cli")]
+
 use lgp::dataset::witness_file_operations;
 use lgp::run::{Checkpoint, Holding, load_front, load_run};
 use std::path::Path;

@@ -1,5 +1,7 @@
 //! Plots of fronts: the same bytes for the same front, whatever is in it.
 
+#![cfg(feature = "report")]
+
 use lgp::report::plot::{
     FrontPlot, Line, LinePlot, PlotError, Theme, lines_png, lines_svg, png, svg,
 };

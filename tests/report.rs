@@ -1,5 +1,7 @@
 //! `lgp report`: what it writes, and what it refuses.
 
+#![cfg(feature = "cli")]
+
 mod command;
 
 use command::{lgp_here, text};

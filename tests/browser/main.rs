@@ -1,5 +1,7 @@
 //! The page of a run in a real browser. Skipped, and said so, where there is no Chromium.
 
+#![cfg(feature = "cli")]
+
 mod hostile;
 
 use assert_cmd::Command;

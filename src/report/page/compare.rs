@@ -1,9 +1,8 @@
 //! Runs of one dataset beside each other.
 
-use super::{own, rendered, within_script};
+use super::{escaped, filled, own, within_script};
 use crate::printable::printable;
 use crate::run::Trace;
-use minijinja::{Value, context};
 use serde::Serialize;
 
 /// What a page of several runs shows.
@@ -50,14 +49,14 @@ const SCRIPTS: [&str; 3] = [
 /// The comparison as HTML.
 pub fn comparison(comparison: &Comparison) -> String {
     let data = serde_json::to_string(comparison).expect("plain data");
-    let safe = Value::from_safe_string;
-    rendered(
-        TEMPLATE,
-        context! {
-            title => printable(&comparison.title),
-            subtitle => printable(&comparison.subtitle),
-            data => safe(within_script(&data)),
-            ..own(&SCRIPTS.concat())
-        },
-    )
+    let [policy, style, script] = own(&SCRIPTS.concat());
+    let values = [
+        ("title", escaped(&printable(&comparison.title))),
+        ("subtitle", escaped(&printable(&comparison.subtitle))),
+        ("data", within_script(&data)),
+        policy,
+        style,
+        script,
+    ];
+    filled(TEMPLATE, &values)
 }

@@ -9,6 +9,7 @@ mod lookup;
 mod policy;
 mod samples;
 mod spheres;
+mod template;
 
 pub use compare::{ComparedRun, Comparison, Group, comparison};
 pub use lookup::{LookupTable, lookup_tables};
@@ -16,11 +17,11 @@ pub use samples::SampleTable;
 pub use spheres::PageSpheres;
 
 use policy::own;
+use template::{escaped, filled};
 
 use crate::dataset::Column;
 use crate::printable::{is_hidden, printable, printable_lines};
 use crate::run::Trace;
-use minijinja::{Environment, Value, context};
 use serde::Serialize;
 
 /// What a page shows.
@@ -124,28 +125,22 @@ const SCRIPTS: [&str; 10] = [
 /// The page as HTML.
 pub fn html(page: &Page) -> String {
     let data = serde_json::to_string(page).expect("plain data");
-    let safe = Value::from_safe_string;
-    let facts = page
-        .facts
-        .iter()
-        .map(|(name, value)| vec![name.clone(), printable_lines(value).into_owned()]);
-    rendered(
-        TEMPLATE,
-        context! {
-            title => printable(&page.title),
-            command => printable(&page.command),
-            facts => facts.collect::<Vec<_>>(),
-            data => safe(within_script(&data)),
-            ..own(&format!("{}\n{}", functions(page), SCRIPTS.concat()))
-        },
-    )
+    let [policy, style, script] = own(&format!("{}\n{}", functions(page), SCRIPTS.concat()));
+    let values = [
+        ("title", escaped(&printable(&page.title))),
+        ("command", escaped(&printable(&page.command))),
+        ("facts", page.facts.iter().map(fact).collect()),
+        ("data", within_script(&data)),
+        policy,
+        style,
+        script,
+    ];
+    filled(TEMPLATE, &values)
 }
 
-fn rendered(template: &str, values: Value) -> String {
-    let mut environment = Environment::new();
-    environment.add_template("page.html", template).expect("the templates are part of the program");
-    let template = environment.get_template("page.html").expect("it was just added");
-    template.render(values).expect("the templates only write what they are given")
+fn fact((name, value): &(String, String)) -> String {
+    let value = printable_lines(value);
+    format!("<dt>{}</dt><dd>{}</dd>", escaped(name), escaped(&value))
 }
 
 /// JSON in which nothing ends a `<script>`, and hidden characters are seen.

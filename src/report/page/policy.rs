@@ -2,12 +2,11 @@
 
 use super::STYLE;
 use base64::{Engine, prelude::BASE64_STANDARD};
-use minijinja::{Value, context};
 use sha2::{Digest, Sha256};
 
-/// A page's own style and script, and the content security policy that allows no others, no network and
-/// no forms.
-pub(super) fn own(script: &str) -> Value {
+/// A template's values: the content security policy that allows no other style and script than the page's
+/// own, no network and no forms, and those two.
+pub(super) fn own(script: &str) -> [(&'static str, String); 3] {
     let script = unix(&format!("\n\"use strict\";\n(() => {{\n{script}\n}})();\n"));
     let style = unix(STYLE);
     let policy = format!(
@@ -15,8 +14,7 @@ pub(super) fn own(script: &str) -> Value {
         hash(&script),
         hash(&style)
     );
-    let safe = Value::from_safe_string;
-    context! { policy => safe(policy), style => safe(style), script => safe(script) }
+    [("policy", policy), ("style", style), ("script", script)]
 }
 
 /// As a content security policy names the text of an element.
