@@ -1,3 +1,5 @@
+//! `lgp analyze`: which variables and subexpressions recur.
+
 use super::run_folder::{self, Which};
 use super::{Common, Failure};
 use crate::program::{Arg, Draft, Names};
@@ -9,15 +11,16 @@ use std::path::PathBuf;
 
 /// Show which variables and subexpressions recur in a run's formulas
 ///
-/// What many formulas share says something of the data: a variable that few use may not matter, a
-/// subexpression that many have may be the change of variable that the data calls for. Constants
-/// are written `c`; what occurs only within a larger subexpression, or is another moved or scaled
-/// by constants, is not listed apart.
+/// A variable that few formulas use may not matter; a subexpression that many share may be the
+/// change of variable that the data calls for. Constants are written `c`. A subexpression that
+/// occurs only within a larger one, or only moves or scales another, is not listed.
+///
+/// For example: lgp analyze runs/dfg --top 10
 #[derive(clap::Args)]
 pub struct Args {
-    /// A folder that `lgp search` or `lgp merge` wrote
+    /// A run: a folder that `lgp search` or `lgp merge` wrote
     run: PathBuf,
-    /// Subexpressions to show
+    /// How many subexpressions to show
     #[arg(long, value_name = "N", default_value_t = 20)]
     top: usize,
 }
@@ -25,8 +28,7 @@ pub struct Args {
 #[derive(Serialize)]
 struct Analysis {
     front: Part,
-    /// The best formulas at each cost, now and then while the search ran; null if that was not
-    /// recorded.
+    /// The best formulas at each cost, sampled during the search; null if not recorded.
     run: Option<Part>,
 }
 
@@ -42,7 +44,7 @@ struct Variable {
     name: String,
     count: u64,
     share: f64,
-    /// Cycles of the cheapest formula of the front that uses it.
+    /// The cycles of the cheapest formula of the front that uses it.
     #[serde(skip_serializing_if = "Option::is_none")]
     cheapest: Option<f64>,
 }
@@ -82,7 +84,7 @@ impl Part {
     }
 }
 
-/// The cycles of the first formula that uses an input: they rise along the front.
+/// Returns the cost of the first formula that uses an input; costs rise along the front.
 fn cheapest(front: &Front, input: usize) -> Option<f64> {
     let used = Arg::Input(input as u16);
     let uses = |member: &&FrontMember| {

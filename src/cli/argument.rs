@@ -1,9 +1,9 @@
-//! Values on the command line.
+//! Parsers of values on the command line.
 
 use crate::search::MAX_CYCLES;
 use std::time::Duration;
 
-/// A time: `60s`, `10m`, `1.5h`, `500ms`, or seconds alone.
+/// Parses a time: `60s`, `10m`, `1.5h`, `500ms`, or seconds alone.
 pub fn duration(text: &str) -> Result<Duration, String> {
     let units = [("ms", 1e-3), ("s", 1.0), ("m", 60.0), ("min", 60.0), ("h", 3600.0)];
     let digits = text.find(|c: char| c.is_ascii_alphabetic()).unwrap_or(text.len());
@@ -18,7 +18,7 @@ pub fn duration(text: &str) -> Result<Duration, String> {
     }
 }
 
-/// A cost budget.
+/// Parses a cost budget in cycles.
 pub fn cycles(text: &str) -> Result<f64, String> {
     match text.parse::<f64>() {
         Ok(cost) if (0.0..=MAX_CYCLES).contains(&cost) => Ok(cost),
@@ -28,7 +28,7 @@ pub fn cycles(text: &str) -> Result<f64, String> {
     }
 }
 
-/// A number from 0 to 1.
+/// Parses a number from 0 to 1.
 pub fn share(text: &str) -> Result<f64, String> {
     let share = text.parse().ok().filter(|share| (0.0..=1.0).contains(share));
     share.ok_or_else(|| "a share is from 0 to 1".into())

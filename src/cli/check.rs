@@ -1,3 +1,5 @@
+//! `lgp check`: what is proved of formulas, or refuted.
+
 use super::eval::{assigned_outputs, settled};
 use super::run_folder::{self, Which};
 use super::{Common, Failure};
@@ -14,38 +16,41 @@ use serde_json::json;
 use std::fmt::Write;
 use std::path::{Path, PathBuf};
 
-/// Prove formulas finite and in range over their whole domain, or refute them
+/// Prove that formulas are finite and in range over their whole domain, or refute it
 ///
-/// Each claim is proved, refuted with an input that does it, or left open, for f32 as the interpreter
-/// computes and for any GPU within WGSL's and Vulkan's stated precision. Of one formula it also shows
-/// what happens at the edges and just outside, what f32 and f16 lose, where, and in which operation,
-/// what compilers may change, and where it bends or jumps. Exit code 4 where a claim is refuted that
-/// was asked for: finite always, ranges with --range, a claim with --claim.
+/// Each claim is proved, refuted by an input, or left open, both for f32 as the interpreter
+/// computes and for any GPU within the precision that WGSL and Vulkan state. For a single formula
+/// it also shows what happens at the domain's edges and just outside, what f32 and f16 lose, where,
+/// and in which operation, what compilers may change, and where the formula bends or jumps. The
+/// exit code is 4 if a claim that was asked for is refuted: finite always, ranges with --range,
+/// others with --claim.
+///
+/// For example: lgp check "y = x/(x + 1)" --domain x=0..1 --range 0..0.5
 #[derive(clap::Args)]
 pub struct Args {
     /// Statements `name = expression`, separated by `;`, or a folder that `lgp search` wrote
     #[arg(value_name = "FORMULA|DIR")]
     formula: String,
-    /// The dataset that a formula is for: its columns and their domains
+    /// The dataset that the formula is for: it gives the columns and their domains
     dataset: Option<PathBuf>,
-    /// In place of a dataset: what each input can be, as x=0..1; other names are outputs
+    /// In place of a dataset: the domain of each input, as x=0..1
     #[arg(long, value_name = "INPUT=LOW..HIGH", value_delimiter = ',', conflicts_with = "dataset")]
     domain: Vec<String>,
-    /// What outputs must not leave, as 0..1, or bias=0..1 for one of them [default: 0..1 or 0 and
-    /// above where the data is so]
+    /// The range that all outputs must stay in, as 0..1, or one output, as bias=0..1 [default:
+    /// 0..1, or 0 and above, if the data stays in it]
     #[arg(long, value_name = "LOW..HIGH", value_delimiter = ',')]
     range: Vec<String>,
-    /// A claim, as "energy: f0*scale + bias <= 1 for f0 in 0..1", or the name of one that comes with the data;
-    /// can be given several times
+    /// A claim, as "energy: f0*scale + bias <= 1 for f0 in 0..1", or the name of a claim that comes
+    /// with the data; can be given several times
     #[arg(long, value_name = "CLAIM|NAME")]
     claim: Vec<String>,
-    /// By how much a value may leave its range
+    /// How far a value may leave its range
     #[arg(long, value_name = "S", default_value_t = 1e-5)]
     slack: f64,
-    /// The absolute error up to which half precision is good enough
+    /// The largest absolute error at which half precision still counts as good enough
     #[arg(long, value_name = "E", default_value_t = 1e-2)]
     half: f64,
-    /// Of a folder all of one member: its number in the table
+    /// Show everything about one formula of a folder: its number in the table
     #[arg(long, value_name = "N")]
     pick: Option<usize>,
     #[command(flatten)]
@@ -71,7 +76,7 @@ pub fn run(args: &Args, common: &Common) -> Result<(), Failure> {
     check_one(args, &program, &names, &asked, common)
 }
 
-/// What is asked, and of which inputs.
+/// The questions, and the inputs they range over.
 struct Asked {
     inputs: Vec<Column>,
     questions: Questions,
@@ -120,7 +125,7 @@ fn of_domain(args: &Args) -> Result<(Program, Names, Asked), Failure> {
     Ok((program, names, Asked { inputs, questions }))
 }
 
-/// What the columns suggest, and what the command line says.
+/// Returns the questions that the columns suggest, changed by the command line.
 fn questions(
     args: &Args,
     inputs: &[Column],
@@ -150,7 +155,7 @@ fn questions(
     Ok(questions)
 }
 
-/// The claims that come with the data, and those of the command line.
+/// Returns the claims that come with the data, then those of the command line.
 fn claimed(
     args: &Args,
     inputs: &[Column],
@@ -176,7 +181,7 @@ fn claimed(
     Ok(claims)
 }
 
-/// `0..1`, `0..` or `..1`.
+/// Parses `0..1`, `0..` or `..1`.
 fn range(text: &str) -> Result<[f64; 2], Failure> {
     let end = |text: &str, otherwise: f64| match text {
         "" => Some(otherwise),
@@ -215,7 +220,7 @@ fn check_one(
     }
 }
 
-/// The first that was asked for and is refuted.
+/// Returns the first claim that was asked for and is refuted.
 fn refuted<'a>(args: &Args, verdict: &'a VerdictRecord) -> Option<&'a ClaimRecord> {
     let [finite, range] = ALWAYS_ASKED;
     let asked = |topic: &str| {
@@ -265,7 +270,7 @@ fn check_front(args: &Args, folder: &Path, common: &Common) -> Result<(), Failur
     Ok(())
 }
 
-/// A line for each topic that is not proved, or one.
+/// Returns a line for each topic that is not proved, or a single line.
 fn rows(number: usize, member: &FrontMember, verdict: &VerdictRecord) -> String {
     let (good, bad): (Vec<_>, Vec<_>) =
         verdict.topics().into_iter().partition(|(_, claim)| claim.claim.is_none());
@@ -282,7 +287,7 @@ fn rows(number: usize, member: &FrontMember, verdict: &VerdictRecord) -> String 
     text
 }
 
-/// How many formulas are proved, refuted, open, by topic.
+/// Counts the formulas that are proved, refuted and open, by topic.
 fn totals(verdicts: &[VerdictRecord]) -> String {
     let mut text = String::from("\n              proved  refuted     open\n");
     let topics = verdicts.first().map(VerdictRecord::topics).unwrap_or_default();

@@ -1,3 +1,5 @@
+//! `lgp cost`: what a formula costs on GPUs.
+
 use super::{Common, Failure};
 use crate::cost::{Cost, Profile};
 use crate::program::parse_open;
@@ -5,18 +7,19 @@ use crate::wording::cycles_text;
 use std::collections::BTreeMap;
 use std::fmt::Write;
 
-/// Show what a formula costs on a GPU: cycles, registers, the critical path
+/// Show what a formula costs on GPUs: cycles, registers, critical path
 ///
-/// Needs no dataset: names that are never assigned are inputs. For example:
-/// lgp cost "d = normal*half; y = d^2/(d^2 + 1)"
+/// Needs no dataset: names that are never assigned are inputs.
+///
+/// For example: lgp cost "d = normal*half; y = d^2/(d^2 + 1)"
 #[derive(clap::Args)]
 pub struct Args {
     /// Statements `name = expression`, separated by `;`
     formula: String,
-    /// Which GPUs: built-in profiles or .ron files, or all that are built in
+    /// The GPUs: built-in profiles, .ron files, or all built-in profiles
     #[arg(long, value_name = "P,…|all", value_delimiter = ',', default_value = "all")]
     gpu: Vec<String>,
-    /// What the formula is for [default: its last statement]
+    /// The formula's outputs [default: its last statement]
     #[arg(long, value_name = "A,B", value_delimiter = ',')]
     outputs: Vec<String>,
 }
@@ -56,7 +59,7 @@ fn table(costs: &[Cost]) -> String {
     text
 }
 
-/// The cycles of each operation on the pipe that decides, so that they sum to the cycles above.
+/// Lists the cycles of each operation on the pipe that decides; they sum to the cycles above.
 fn breakdown(costs: &[Cost]) -> String {
     let mut counts: BTreeMap<&str, u32> = BTreeMap::new();
     for cost in costs {

@@ -1,3 +1,5 @@
+//! `lgp emit`: a formula of a run as code.
+
 use super::run_folder::{self, Which};
 use super::{Common, Failure, tiers};
 use crate::emit::Language;
@@ -12,13 +14,17 @@ use crate::wording::{cycles_text, error_text};
 use serde::Serialize;
 use std::path::PathBuf;
 
-/// Write a formula of a run as a function ready to paste
+/// Print a formula of a run as a function to paste
 ///
-/// `lgp verify` reads it back. Where a base and an exponent may both be 0, languages differ: `pow(0, 0)`
-/// counts as NaN here, as in shaders that compute exp2(y*log2(x)); C, Rust, Python and MSL say 1.
+/// Takes the knee of the front unless an option chooses another formula; `lgp front` shows the
+/// table. `lgp verify` reads the function back. If a base and its exponent can both be 0, languages
+/// differ: `pow(0, 0)` is NaN here, as in shaders that compute exp2(y*log2(x)); in C, Rust, Python
+/// and MSL it is 1.
+///
+/// For example: lgp emit runs/dfg --lang wgsl --max-cost 16
 #[derive(clap::Args)]
 pub struct Args {
-    /// A folder that `lgp search` wrote
+    /// A run: a folder that `lgp search` wrote
     run: PathBuf,
     #[command(flatten)]
     which: Which,
@@ -27,28 +33,28 @@ pub struct Args {
     lang: Language,
     #[arg(long, help = half_help())]
     half: bool,
-    /// In half precision, but for as few operations as must stay in single for halves to add an
-    /// error of at most E anywhere in the domain
+    /// Use half precision, except for the fewest operations that must stay in single precision so
+    /// that halves add an error of at most E anywhere in the domain
     #[arg(long, value_name = "E", conflicts_with = "half")]
     half_error: Option<f64>,
-    /// Which one: its number in the table, or the knee [default: knee]
+    /// The formula to take: its number in the table, or the knee [default: knee]
     #[arg(long, value_name = "knee|N", conflicts_with_all = ["max_cost", "max_error", "tier"])]
     pick: Option<String>,
-    /// The most accurate that costs at most C cycles
+    /// Take the most accurate formula that costs at most C cycles
     #[arg(long, value_name = "C")]
     max_cost: Option<f64>,
-    /// The cheapest whose error (RMSE, or what the front was searched by) is at most E
+    /// Take the cheapest formula whose error (RMSE, or the measure of the front) is at most E
     #[arg(long, value_name = "E")]
     max_error: Option<f64>,
-    /// What this tier of the run's scene can afford
+    /// Take the best formula that this tier of the run's scene can afford
     #[arg(long, value_name = "TIER", conflicts_with_all = ["max_cost", "max_error"])]
     tier: Option<String>,
 }
 
 fn half_help() -> String {
     format!(
-        "In half precision throughout ({}), unless a constant or value is one that no half holds; the \
-         comment says what that costs in accuracy",
+        "Use half precision throughout ({}); refused if no half can hold some constant or value. The \
+         function's comment says what accuracy is lost",
         Language::names(Language::SHADING, "and")
     )
 }
@@ -81,7 +87,7 @@ pub fn run(args: &Args, common: &Common) -> Result<(), Failure> {
     common.result(&emitted, &code)
 }
 
-/// The member in halves: throughout, or but for what the bound asks for.
+/// Returns the member in halves: throughout, or as far as the bound permits.
 fn half(
     args: &Args,
     run: &Run,
@@ -112,7 +118,7 @@ fn half(
     Ok(code.expect("shading languages have halves"))
 }
 
-/// The operations that cannot be halves for that error.
+/// Returns the operations that must stay single to keep the error within `bound`.
 fn stay_single(
     run: &Run,
     member: &FrontMember,
@@ -136,7 +142,7 @@ fn stay_single(
     })
 }
 
-/// What no half holds, in words.
+/// Describes the value that no half holds.
 fn unheld_text(lost: &Unheld, member: &FrontMember, names: &Names) -> String {
     let operation = |i: usize| expression(&member.program, i, names);
     let at = |input: &[f32]| {
@@ -200,7 +206,7 @@ fn pick<'a>(args: &Args, run: &Run, front: &'a Front) -> Result<&'a FrontMember,
     numbered(front, args.pick.as_deref())
 }
 
-/// What comes nearest to the limits that no member is within.
+/// Describes the member nearest to limits that none meets.
 fn least(args: &Args, front: &Front) -> String {
     let Some(best) = front.within(args.max_cost, None) else {
         let cheapest = front.members.first().map_or("the front is empty".to_owned(), |member| {
@@ -217,7 +223,7 @@ fn least(args: &Args, front: &Front) -> String {
     )
 }
 
-/// The member of a number in the table, or the knee.
+/// Returns the member of a number in the table, or the knee.
 pub(super) fn numbered<'a>(
     front: &'a Front,
     pick: Option<&str>,

@@ -1,3 +1,5 @@
+//! `lgp eval`: errors and cost of a formula.
+
 use super::{Common, Failure, columns::Columns};
 use crate::cost::Profile;
 use crate::program::{Names, ParseError, Parsed, Program, Scope, parse_template};
@@ -14,14 +16,16 @@ use std::path::PathBuf;
 pub struct Args {
     /// Statements `name = expression`, separated by `;`, over the dataset's columns
     formula: String,
-    /// A dataset, as `lgp generate` and `lgp import` write them
+    /// The dataset: a file from `lgp generate` or `lgp import`
     dataset: PathBuf,
     #[command(flatten)]
     columns: Columns,
-    /// On what a scene needs of the dataset; the formula may be over the columns of either
+    /// Score on what a scene needs of the dataset: a scene beside it, or a .ron file; the formula
+    /// may use the columns of either
     #[arg(long, value_name = "S")]
     scene: Option<String>,
-    /// What it costs: a GPU profile, built in or a .ron file, or a mix such as gcn:2,turing:1
+    /// The GPU to count cycles for: a built-in profile, a .ron file, or a mix such as
+    /// gcn:2,turing:1
     #[arg(long, value_name = "P", default_value = "gcn")]
     gpu: String,
 }
@@ -39,7 +43,7 @@ pub fn run(args: &Args, common: &Common) -> Result<(), Failure> {
     common.result(&record, &table)
 }
 
-/// The formula over the subject's columns.
+/// Parses the formula over the subject's columns.
 fn read(args: &Args, subject: &Subject) -> Result<(Program, Names), Failure> {
     let names = subject.dataset.names();
     let refusal = match assigned_outputs(&args.formula, &names) {
@@ -59,7 +63,7 @@ fn read(args: &Args, subject: &Subject) -> Result<(Program, Names), Failure> {
     }
 }
 
-/// A formula without free constants.
+/// Returns a formula that has no free constants.
 pub(super) fn settled(parsed: Parsed) -> Result<(Program, Names), Failure> {
     let Parsed { program, names, free } = parsed;
     match free.first() {
@@ -73,7 +77,7 @@ pub(super) fn settled(parsed: Parsed) -> Result<(Program, Names), Failure> {
     }
 }
 
-/// What a text says of those outputs that it assigns.
+/// Parses a text as a formula for the outputs that it assigns.
 pub(super) fn assigned_outputs(formula: &str, names: &Names) -> Result<Parsed, ParseError> {
     let over =
         |outputs: &[String]| Names { inputs: names.inputs.clone(), outputs: outputs.to_vec() };

@@ -1,3 +1,5 @@
+//! Failures of commands: exit codes and messages.
+
 use super::output::to_stderr;
 use crate::grammar::FileError;
 use crate::run::{Incompatible, RecordError, SubjectError};
@@ -7,10 +9,10 @@ use std::io::ErrorKind;
 use std::path::Path;
 use std::process::ExitCode;
 
-/// How a command that was not done ends.
+/// Exit code of a command that was not done.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Exit {
-    /// What was asked for is fine, but could not be done.
+    /// The request is fine, but could not be carried out.
     Failed = 1,
     /// The command line itself is wrong.
     Usage = 2,
@@ -31,41 +33,44 @@ impl From<Exit> for ExitCode {
 /// Why a command was not done, for the person who called it.
 #[derive(Debug)]
 pub struct Failure {
+    /// What the process returns.
     pub exit: Exit,
+    /// What is shown, with its causes.
     pub error: anyhow::Error,
 }
 
 impl Failure {
+    /// Returns a failure that ends the process with `exit`.
     pub fn new(exit: Exit, error: impl Into<anyhow::Error>) -> Failure {
         Failure { exit, error: error.into() }
     }
 
-    /// A command line that is wrong whatever the files hold.
+    /// Reports a command line that is wrong whatever the files hold.
     pub fn usage(message: impl Into<String>) -> Failure {
         Failure::new(Exit::Usage, anyhow::Error::msg(message.into()))
     }
 
-    /// Something unusable that the command line refers to.
+    /// Reports something unusable that the command line refers to.
     pub fn input(message: impl Into<String>) -> Failure {
         Failure::new(Exit::Input, anyhow::Error::msg(message.into()))
     }
 
-    /// A target that was asked for was not met.
+    /// Reports that a target that was asked for was not met.
     pub fn unmet(message: impl Into<String>) -> Failure {
         Failure::new(Exit::Unmet, anyhow::Error::msg(message.into()))
     }
 
-    /// What was asked for is fine, but could not be done.
+    /// Reports a request that is fine, but could not be carried out.
     pub fn failed(message: impl Into<String>) -> Failure {
         Failure::new(Exit::Failed, anyhow::Error::msg(message.into()))
     }
 
-    /// Stopped by the user.
+    /// Reports that the user stopped the command.
     pub fn interrupted(message: impl Into<String>) -> Failure {
         Failure::new(Exit::Interrupted, anyhow::Error::msg(message.into()))
     }
 
-    /// An output that cannot be written.
+    /// Reports an output that cannot be written.
     pub fn unwritable(path: &Path, reason: std::io::Error) -> Failure {
         let path = path.display();
         let advice = match reason.kind() {
@@ -77,8 +82,7 @@ impl Failure {
         Failure::failed(format!("{path}: cannot be written: {reason}; {advice}"))
     }
 
-    /// Tells the user, on stderr: the error, and what caused it as far as the
-    /// error does not say so itself.
+    /// Prints the error on stderr, and its causes as far as it does not name them itself.
     pub(super) fn report(&self) {
         let mut text = self.error.to_string();
         for cause in self.error.chain().skip(1).map(ToString::to_string) {

@@ -1,3 +1,5 @@
+//! `lgp fit`: the constants of a model.
+
 use super::eval::assigned_outputs;
 use super::{Common, Exit, Failure, columns::Columns};
 use crate::cost::Profile;
@@ -12,34 +14,35 @@ use serde::Serialize;
 use std::collections::BTreeMap;
 use std::path::PathBuf;
 
-/// Fit the constants of a model of your own: $name is free
+/// Fit the free constants, written $name, of a formula of your own
 ///
 /// For example: lgp fit "bias = exp2(-($a*n_dot_v + $b*roughness^2))" datasets/dfg.bin
 #[derive(clap::Args)]
 pub struct Args {
-    /// Statements `name = expression` over the dataset's columns; `$name` is a free constant
+    /// Statements `name = expression`, separated by `;`, over the dataset's columns; `$name` is a
+    /// free constant
     template: String,
-    /// A dataset, as `lgp generate` and `lgp import` write them
+    /// The dataset: a file from `lgp generate` or `lgp import`
     dataset: PathBuf,
     #[command(flatten)]
     columns: Columns,
-    /// What is made small: rmse, max, weighted (by the dataset's weights) or relative [default: rmse,
-    /// or weighted where the dataset has weights]
+    /// The error to minimise: rmse, max, weighted (by the dataset's weights) or relative [default:
+    /// rmse, or weighted if the dataset has weights]
     #[arg(long, value_name = "MEASURE")]
     loss: Option<Measure>,
-    /// Where constants start, as in a=2.5,b=1 [default: 1]
+    /// Starting values of constants, as in a=2.5,b=1 [default: 1]
     #[arg(long, value_name = "NAME=X", value_delimiter = ',', value_parser = start)]
     #[arg(allow_hyphen_values = true)]
     start: Vec<(String, f32)>,
-    /// What constants may be, as in a=0..4,b=..1
+    /// Bounds of constants, as in a=0..4,b=..1
     #[arg(long, value_name = "NAME=LOW..HIGH", value_delimiter = ',', value_parser = bounds)]
     #[arg(allow_hyphen_values = true)]
     bounds: Vec<(String, [f32; 2])>,
-    /// Fits from so many starts, the best of which counts
+    /// The number of starting points to fit from; the best fit counts
     #[arg(long, value_name = "N", default_value_t = 24)]
     #[arg(value_parser = clap::value_parser!(u32).range(1..=100_000))]
     starts: u32,
-    /// What it costs: a built-in GPU profile, or a .ron file
+    /// The GPU to count cycles for: a built-in profile or a .ron file
     #[arg(long, value_name = "P", default_value = "gcn")]
     gpu: String,
 }
@@ -85,7 +88,7 @@ pub fn run(args: &Args, common: &Common) -> Result<(), Failure> {
     }
     let loss = fit_model(&mut draft, &samples, &parameters, measure, args.starts, common.seed());
     if !loss.is_finite() {
-        let message = "the model is not finite on every sample from any start; give others by --start, or --bounds";
+        let message = "the model is not finite on every sample from any start; give other --start values, or --bounds";
         return Err(Failure::input(message));
     }
     let constants: BTreeMap<&str, f32> = known
@@ -121,7 +124,7 @@ fn show(
     common.result(&Fitted { constants, member: record }, &text)
 }
 
-/// The place of a free constant among those of the template.
+/// Returns the index of a free constant among the template's.
 fn place(name: &str, known: &[&str], option: &str) -> Result<usize, Failure> {
     known.iter().position(|constant| *constant == name).ok_or_else(|| {
         let meant = did_you_mean(name, known.iter().copied());

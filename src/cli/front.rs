@@ -1,3 +1,5 @@
+//! `lgp front`: a run's front as a table.
+
 use super::run_folder::{self, Which};
 use super::{Common, Failure, tiers};
 use crate::run::Subject;
@@ -7,10 +9,14 @@ use crate::search::ScoredIncumbent;
 use crate::wording::front_table;
 use std::path::{Path, PathBuf};
 
-/// Show the front of a run as a table, published formulas beside it
+/// Show the front of a run as a table, with published formulas beside it
+///
+/// Each formula has a number, which `lgp emit`, `lgp check` and `lgp render` take with --pick.
+///
+/// For example: lgp front runs/dfg
 #[derive(clap::Args)]
 pub struct Args {
-    /// A folder that `lgp search` wrote
+    /// A run: a folder that `lgp search` wrote
     run: PathBuf,
     #[command(flatten)]
     which: Which,
@@ -28,7 +34,7 @@ pub fn run(args: &Args, common: &Common) -> Result<(), Failure> {
     common.result(&records, &table)
 }
 
-/// Fills in what records of an older version lack, if the profile is still there.
+/// Counts the registers that records of an older version lack, if the profile is still there.
 fn count_registers(run: &Run, front: &mut Front) {
     let Some(profile) = run.profile() else { return };
     for member in front.members.iter_mut().filter(|member| member.registers.is_none()) {
@@ -36,7 +42,7 @@ fn count_registers(run: &Run, front: &mut Front) {
     }
 }
 
-/// The incumbents, if the dataset is still where the run found it.
+/// Returns the incumbents, if the dataset is still where the run found it.
 pub(super) fn incumbents(run: &mut Run, folder: &Path) -> Option<Vec<ScoredIncumbent>> {
     Subject::of_run(run, folder).ok()?.published_for(run)
 }

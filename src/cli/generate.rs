@@ -1,3 +1,5 @@
+//! `lgp generate`: the dataset of a target.
+
 use super::output::{check_writable, save};
 use super::pruning::Pruning;
 use super::{Common, Exit, Failure};
@@ -6,15 +8,19 @@ use serde::Serialize;
 use std::path::{Path, PathBuf};
 use std::time::Instant;
 
-/// Make the dataset of a ground truth
+/// Make the dataset of a built-in ground truth (a target)
+///
+/// `lgp list` shows the targets, their columns, and the parameters that --set takes.
+///
+/// For example: lgp generate dfg -o dfg.bin --set points=32
 #[derive(clap::Args)]
 pub struct Args {
-    /// A target (see `lgp list`), or a recipe: a file that ends in .ron
+    /// A target's name, or a recipe: a file that ends in .ron
     target: String,
-    /// Where to write the dataset [default: the target's or recipe's name with .bin]
+    /// The file to write [default: the name of the target or recipe, with .bin]
     #[arg(short, long, value_name = "FILE")]
     output: Option<PathBuf>,
-    /// Choose a parameter of the target, as in --set points=32
+    /// Set a parameter of the target, as in --set points=32; can be given several times
     #[arg(long, value_name = "K=V", value_parser = key_value)]
     set: Vec<(String, String)>,
     #[command(flatten)]

@@ -1,3 +1,5 @@
+//! `lgp import`: a dataset from a table in CSV.
+
 use super::output::{check_writable, save};
 use super::pruning::Pruning;
 use super::{Common, Exit, Failure};
@@ -5,22 +7,25 @@ use crate::dataset::{Column, InputColumns, import_csv};
 use serde::Serialize;
 use std::path::{Path, PathBuf};
 
-/// Make a dataset of a table in CSV
+/// Make a dataset from a table in CSV
 ///
-/// The first line names the columns; every other line holds one number for each.
-/// A column called `weight` weighs the rows; `y_se`, where `y` is an output, holds the standard errors of `y`: no
-/// formula wins by less. One row in four is kept for validation.
+/// The first line names the columns; every other line holds one number for each. A column called
+/// `weight` weighs the rows. A column `y_se`, where `y` is an output, holds the standard errors of
+/// `y`: no formula wins by a smaller difference. One row in four is kept for
+/// validation.
+///
+/// For example: lgp import mine.csv -o mine.bin --inputs 2
 #[derive(clap::Args)]
 pub struct Args {
     /// The table: comma-separated numbers under a line of column names
     table: PathBuf,
-    /// Where to write the dataset
+    /// The dataset to write
     #[arg(short, long, value_name = "FILE")]
     output: PathBuf,
-    /// The inputs: the first N columns, or names as in a,b; all others are outputs
+    /// The inputs: N for the first N columns, or names as in a,b; all other columns are outputs
     #[arg(long, value_name = "N|NAMES", value_parser = input_columns)]
     inputs: InputColumns,
-    /// What to ask of formulas for it, as in "sum: a + b <= 1"; can be given several times
+    /// A claim that formulas should meet, as in "sum: a + b <= 1"; can be given several times
     #[arg(long, value_name = "CLAIM")]
     claim: Vec<String>,
     #[command(flatten)]

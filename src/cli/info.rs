@@ -1,13 +1,17 @@
+//! `lgp info`: the contents of a dataset.
+
 use super::{Common, Failure};
 use crate::dataset::{Column, Dataset, Split, incumbents_for};
 use serde::Serialize;
 use std::fmt::Write;
 use std::path::PathBuf;
 
-/// Show what a dataset holds, and where it comes from
+/// Show what a dataset holds and where it comes from
+///
+/// For example: lgp info datasets/dfg.bin
 #[derive(clap::Args)]
 pub struct Args {
-    /// A dataset, as `lgp generate` and `lgp import` write them
+    /// The dataset: a file from `lgp generate` or `lgp import`
     dataset: PathBuf,
 }
 
@@ -43,7 +47,7 @@ struct Rows {
     grid: Vec<usize>,
 }
 
-/// Of one column in one split; the mean is weighted as the rows are.
+/// A column in one split; the mean is weighted as the rows are.
 #[derive(Serialize)]
 struct Values {
     min: f32,
@@ -147,7 +151,7 @@ fn row(column: &ColumnInfo, width: usize) -> String {
     format!("{:width$}  {unit:<8}  {domain:<22}  {found:<22}  {mean}", column.name)
 }
 
-/// At most five significant digits, without trailing zeros.
+/// Formats at most five significant digits, without trailing zeros.
 fn short(value: f64) -> String {
     if value != 0.0 && !(1e-4..1e6).contains(&value.abs()) {
         return format!("{value:.4e}");

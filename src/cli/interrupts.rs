@@ -1,13 +1,13 @@
-//! Ctrl-C, and what asks a process to end.
+//! Ctrl-C and the signals that end a process.
 
 use super::Exit;
 use crate::deadline::Stop;
 
-/// Once for the search, once for what follows it; then nothing is waited for.
+/// One ends the search, one more what follows it; a third ends the process.
 const REQUESTS: usize = 2;
 
-/// Makes requests of Ctrl-C, SIGTERM and SIGHUP, the last unless it is ignored, as under `nohup`: then the process is
-/// to outlive its terminal.
+/// Turns Ctrl-C, SIGTERM and SIGHUP into requests; SIGHUP not where it is ignored, as under
+/// `nohup`, since the process is to outlive its terminal.
 pub fn watch() -> Stop {
     let stop = Stop::default();
     let seen = stop.clone();

@@ -1,4 +1,4 @@
-//! What the folders of a project hold.
+//! The usable files in a project's folders.
 
 use crate::cost::Profile;
 use crate::dataset::{Column, Dataset, LARGEST_TEXT, load_incumbents, read_text};
@@ -6,7 +6,7 @@ use crate::grammar::Grammar;
 use serde::Serialize;
 use std::path::{Path, PathBuf};
 
-/// A file that a command can be given.
+/// A file that a command can take.
 #[derive(Serialize)]
 pub(super) struct Entry {
     #[serde(serialize_with = "crate::cli::output::readable")]
@@ -52,7 +52,7 @@ pub(super) fn gpu_profiles() -> Vec<Entry> {
     built_in.chain(entries("grammar/gpu", "ron", first_comment)).collect()
 }
 
-/// What the program brings along, to be named without a path.
+/// Returns an entry that is built into the program, named without a path.
 fn built_in(name: &str, description: Option<String>) -> Entry {
     let description = format!("built in: {}", description.unwrap_or_default());
     Entry { path: name.into(), description, usable: true }
@@ -74,7 +74,7 @@ fn entries(
     paths.into_iter().map(entry).collect()
 }
 
-/// What a `.ron` file says of itself in its first line.
+/// Returns the first line of a `.ron` file if it is a comment.
 fn first_comment(path: &Path) -> Result<String, String> {
     let text = read_text(path, LARGEST_TEXT).map_err(|error| error.to_string())?;
     let first = text.lines().next().unwrap_or_default();

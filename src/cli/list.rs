@@ -1,13 +1,15 @@
+//! `lgp list`: targets, datasets, grammars, GPU profiles.
+
 use super::inventory::{self, Entry};
 use super::{Common, Failure};
 use crate::targets::{Choices, Parameter, Target, targets};
 use serde::Serialize;
 use std::fmt::Write;
 
-/// Show what there is to work with, built in and in this folder
+/// Show the targets, datasets, scenes, grammars and GPU profiles there are
 ///
-/// Targets are built in. Datasets, incumbents and scenes are looked for in ./datasets, grammars and GPU
-/// profiles in ./grammar.
+/// Targets are built in, and so are some grammars and GPU profiles. Datasets, incumbents and scenes
+/// are looked for in ./datasets, more grammars and GPU profiles in ./grammar.
 #[derive(clap::Args)]
 pub struct Args {}
 

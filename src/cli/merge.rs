@@ -1,3 +1,5 @@
+//! `lgp merge`: the union of runs.
+
 use super::run_folder::{self, Which};
 use super::{Common, Failure, front};
 use crate::report::write_plots;
@@ -9,17 +11,19 @@ use crate::search::Front;
 use crate::wording::front_table;
 use std::path::{Path, PathBuf};
 
-/// Put runs together: the front that none of their formulas dominates
+/// Merge runs: keep the formulas that no other dominates
 ///
-/// The order does not matter, nor how often a run is given: seeds can be spread over any number of
-/// machines, and unions merged again. The runs must be of the same dataset, columns, grammar and GPU
-/// profile.
+/// Neither the order of the runs nor giving one twice changes the result, so seeds can be spread
+/// over any number of machines, and unions merged again. The runs must have the same dataset,
+/// columns, grammar and GPU profile.
+///
+/// For example: lgp merge runs/dfg runs/dfg-2 --out runs/union
 #[derive(clap::Args)]
 pub struct Args {
-    /// Folders that `lgp search` or `lgp merge` wrote
+    /// Runs: folders that `lgp search` or `lgp merge` wrote
     #[arg(required = true)]
     runs: Vec<PathBuf>,
-    /// Where the union is written; a union that is there already is replaced
+    /// The folder to write the union to; a union that is already there is replaced
     #[arg(long, value_name = "DIR")]
     out: PathBuf,
 }
@@ -57,7 +61,8 @@ fn united(args: &Args, which: Which) -> Result<(Run, Front), Failure> {
     merge(runs?)?.ok_or_else(|| Failure::usage("no runs to merge"))
 }
 
-/// A search's folder holds what cannot be had again; and other files may be called as a union's are.
+/// Refuses a folder with a search, which cannot be made again from other runs, or with files that
+/// are no run's but are called as a union's.
 fn check_replaceable(out: &Path) -> Result<(), Failure> {
     let refuse = |reason: &str| {
         let out = out.display();

@@ -1,4 +1,4 @@
-//! The command line. One file a subcommand, each with its `Args` and a `run`.
+//! The command line: one file a subcommand, each with its `Args` and a `run`.
 
 mod analyze;
 mod argument;
@@ -44,28 +44,30 @@ const ABOUT: &str = "\
 Finds cheap closed-form shader formulas for a table of samples.
 
 A dataset holds samples of a function: import your own from CSV, or generate one
-of the ground truths that are built in. Formulas are judged on two axes: their
-error, and the GPU cycles they cost.";
+of the built-in ground truths. Formulas are judged on two axes: their error, and
+the GPU cycles they cost.";
 
 const EXAMPLES: &str = "\
 To begin:
-  lgp list                      what there is to start from
+  lgp list                      show targets, datasets, grammars, GPU profiles
   lgp generate dfg -o dfg.bin   make the dataset of a ground truth, or
   lgp import mine.csv -o mine.bin --inputs 2
                                 of your own table: two inputs, the rest outputs
-  lgp info dfg.bin              what a dataset holds
-  lgp search dfg.bin            a minute later: a front of formulas, error
-                                against GPU cycles, and one to paste
+  lgp info dfg.bin              show what a dataset holds
+  lgp search dfg.bin            search for a minute at most: a front of error
+                                against GPU cycles, and a formula to paste
   lgp emit runs/dfg --lang wgsl --max-cost 16
-                                the best one that you can afford
-  lgp report runs/dfg           a page of it: where formulas err, spheres, code
+                                print the most accurate one that you can afford
+  lgp report runs/dfg           make a page of it: where formulas err, code
   lgp eval \"scale = 1 - roughness\" dfg.bin --outputs scale
-                                a formula of your own on the same axes
-  lgp cost \"y = exp2(-a*b)\"     what a formula costs on each GPU
-  lgp check runs/dfg            what is proved of each formula over its domain, or
+                                score a formula of your own on the same axes
+  lgp cost \"y = exp2(-a*b)\"     show what a formula costs on each GPU
+  lgp check runs/dfg            prove each formula finite and in range, or find
                                 the input that refutes it
   lgp verify dfg.wgsl dfg.bin --max-error 0.01
-                                in your own CI: a shader file against the data
+                                check a shader file against the data, in your CI
+
+`lgp COMMAND --help` explains a command, `lgp COMMAND -h` in short.
 
 Exit codes: 0 done, 1 failed, 2 usage, 3 unusable input, 4 a target asked for
 was not met, 130 interrupted.";
@@ -132,7 +134,7 @@ pub fn run() -> ExitCode {
     run_words(std::env::args_os())
 }
 
-/// Runs a command of these words, the program's name the first.
+/// Runs the command of these words, the first of which is the program's name.
 pub fn run_words(words: impl IntoIterator<Item = OsString>) -> ExitCode {
     let cli = match Cli::try_parse_from(words) {
         Ok(cli) => cli,

@@ -1,4 +1,4 @@
-//! What every command says, and where: results on stdout, the rest on stderr.
+//! Output of all commands: results on stdout, everything else on stderr.
 
 use super::{Exit, Failure};
 use crate::dataset::{Dataset, check_replaceable};
@@ -11,23 +11,23 @@ use std::path::Path;
 /// The options of every command.
 #[derive(Clone, Debug, clap::Args)]
 pub struct Common {
-    /// Write machine-readable JSON to stdout, and everything else to stderr
+    /// Print results as JSON on stdout, and everything else on stderr
     #[arg(long, global = true)]
     pub json: bool,
-    /// Say nothing but results and errors
+    /// Print nothing but results and errors
     #[arg(long, short, global = true)]
     pub quiet: bool,
-    /// Use so many threads [default: one for each core]
+    /// The number of threads to use [default: one for each core]
     #[arg(long, global = true, value_name = "N")]
     #[arg(value_parser = clap::value_parser!(u16).range(1..=1024))]
     pub threads: Option<u16>,
-    /// Begin random numbers here: the same seed repeats a search [default: 1]
+    /// The seed of random numbers: the same seed repeats a search [default: 1]
     #[arg(long, global = true, value_name = "S")]
     pub seed: Option<u64>,
 }
 
 impl Common {
-    /// The seed, or the usual one.
+    /// Returns the seed, or the usual one.
     pub fn seed(&self) -> u64 {
         self.seed.unwrap_or(1)
     }
@@ -41,7 +41,7 @@ impl Common {
         })
     }
 
-    /// A result: `text`, or with `--json` the value.
+    /// Prints a result: `text`, or with `--json` the value.
     pub fn result(&self, value: &impl Serialize, text: &str) -> Result<(), Failure> {
         if !self.json {
             return to_stdout(&printable_lines(text.trim_end()));
@@ -51,7 +51,7 @@ impl Common {
         to_stdout(&printable_json(&json))
     }
 
-    /// What a command that leaves a file behind says of it.
+    /// Prints a summary for a command that leaves a file behind.
     pub fn summary(&self, value: &impl Serialize, text: &str) -> Result<(), Failure> {
         if self.quiet && !self.json {
             return Ok(());
@@ -62,14 +62,14 @@ impl Common {
         self.result(value, text)
     }
 
-    /// What a result is accompanied by, unless nothing but it is wanted.
+    /// Prints a remark on stderr, unless only results are wanted.
     pub fn note(&self, text: &str) {
         if !self.quiet {
             to_stderr(text);
         }
     }
 
-    /// A bar on a terminal, else nothing.
+    /// Returns a progress bar, hidden unless stderr is a terminal.
     pub fn progress(&self, verb: &'static str) -> ProgressBar {
         if self.quiet || !std::io::stderr().is_terminal() {
             return ProgressBar::with_draw_target(None, ProgressDrawTarget::hidden());
@@ -80,12 +80,12 @@ impl Common {
     }
 }
 
-/// A path in JSON, which is text.
+/// Serialises a path as text, for JSON.
 pub(super) fn readable<S: Serializer>(path: &Path, serializer: S) -> Result<S::Ok, S::Error> {
     serializer.serialize_str(&path.to_string_lossy())
 }
 
-/// Says something on stderr.
+/// Prints to stderr.
 pub(super) fn to_stderr(text: &str) {
     // Nobody is left to tell if stderr is closed.
     let _ = writeln!(std::io::stderr(), "{}", printable_lines(text));

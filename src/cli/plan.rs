@@ -1,4 +1,4 @@
-//! What a search is to do, as the command line says, and where it is written.
+//! The plan of a search, from the command line, and the folder it is written to.
 
 use super::resume::resumed;
 use super::search::Args;
@@ -14,7 +14,7 @@ use crate::suggest::did_you_mean;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-/// A search that is ready to begin or to go on, the owner of its folder.
+/// A search that is ready to begin or to go on, and owns its folder.
 pub struct Plan {
     pub subject: Subject,
     pub session: Session,
@@ -70,12 +70,12 @@ impl Plan {
     }
 }
 
-/// The command line, its arguments as given.
+/// Returns the command line, its arguments as given.
 fn command() -> Vec<String> {
     std::env::args_os().map(|word| word.to_string_lossy().into_owned()).collect()
 }
 
-/// The folder that was asked for, unless it holds what would be lost.
+/// Claims the folder that was asked for, unless it holds what would be lost.
 fn asked_for(out: &Path, force: bool) -> Result<Folder, Failure> {
     let shown = out.display();
     let check = || match Holding::of(out) {
@@ -100,7 +100,7 @@ fn asked_for(out: &Path, force: bool) -> Result<Folder, Failure> {
     Ok(folder)
 }
 
-/// The first of `runs/NAME`, `runs/NAME-2` and so on that holds nothing.
+/// Claims the first of `runs/NAME`, `runs/NAME-2` and so on that is empty.
 fn free(name: &str, common: &Common) -> Result<Folder, Failure> {
     for (number, path) in default_folders(name).enumerate() {
         if !is_empty(&path) {
@@ -122,7 +122,8 @@ fn free(name: &str, common: &Common) -> Result<Folder, Failure> {
     Err(Failure::usage("runs: there are too many runs of that name; say where by --out"))
 }
 
-/// A folder that is not there, or that only a lock, perhaps of a killed process, is in.
+/// Returns true for a folder that does not exist, or holds only a lock, perhaps of a killed
+/// process.
 fn is_empty(folder: &Path) -> bool {
     match folder.read_dir() {
         Ok(mut files) => files.all(|file| file.is_ok_and(|file| file.file_name() == "lock")),
@@ -130,7 +131,8 @@ fn is_empty(folder: &Path) -> bool {
     }
 }
 
-/// Where runs go unasked; a dataset's name is only that, whatever characters it has.
+/// Returns the default folders of runs; a dataset's name is one path component, whatever its
+/// characters.
 pub(super) fn default_folders(name: &str) -> impl Iterator<Item = PathBuf> {
     let plain = |c: char| c.is_alphanumeric() || matches!(c, '_' | '-' | '.' | ' ');
     let name: String = name.chars().map(|c| if plain(c) { c } else { '_' }).collect();
@@ -150,7 +152,7 @@ pub(super) fn guesses(texts: &[String], dataset: &Dataset) -> Result<Vec<Draft>,
     texts.iter().map(|text| Ok(parse(text, &names)?.into_draft())).collect()
 }
 
-/// What is to be made small; weights that are asked for must be there.
+/// Returns the measure to minimise; weights that are asked for must be there.
 fn measure(loss: Option<Measure>, path: &Path, split: &Split) -> Result<Measure, Failure> {
     if loss == Some(Measure::Weighted) && split.weights.is_empty() {
         let message = format!(
@@ -177,8 +179,8 @@ pub(super) fn requirements(args: &Args, dataset: &Dataset) -> Result<Vec<Require
     Ok(requirements)
 }
 
-/// What must be used must be in the grammar, or nothing could be found. A guess may go beyond it, since its
-/// user wrote it out; that is said.
+/// Checks that operations that must be used are in the grammar: otherwise nothing could be found. A
+/// guess may go beyond the grammar, since its user wrote it out; a warning says so.
 fn check_operations(
     requirements: &[Requirement],
     guesses: &[Draft],

@@ -1,4 +1,4 @@
-//! How a search goes, on a terminal.
+//! The progress of a search, on a terminal.
 
 use super::Common;
 use super::timings::Timings;
@@ -50,7 +50,7 @@ impl LiveFront {
     }
 }
 
-/// The phases that follow a search: a bar for each, and its time.
+/// The phases that follow a search: a progress bar for each, and its time.
 pub struct Phases<'a> {
     common: &'a Common,
     current: Mutex<(Option<ProgressBar>, &'a mut Timings)>,
@@ -61,7 +61,7 @@ impl<'a> Phases<'a> {
         Phases { common, current: Mutex::new((None, timings)) }
     }
 
-    /// As [`crate::run::Session::finish`] tells it.
+    /// Takes the progress that [`crate::run::Session::finish`] reports.
     pub fn hear(&self, phase: Phase, share: Option<f64>) {
         let mut current = self.current.lock().expect("no thread panics with it");
         let (bar, timings) = &mut *current;

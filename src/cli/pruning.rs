@@ -1,16 +1,18 @@
+//! The option `--prune`.
+
 use crate::dataset::{Dataset, Origin};
 
-/// Fewer rows to search on, for large tables.
+/// The option to search on fewer rows of large tables.
 #[derive(clap::Args)]
 pub(super) struct Pruning {
-    /// Keep one row, with the weight of all, where no output varies by more than this share of
-    /// its range, as in --prune 0.01; validation keeps all
+    /// Keep a single row, with the weight of all, where no output varies by more than this share of
+    /// its range, as in --prune 0.01; validation keeps all rows
     #[arg(long, value_name = "SHARE", value_parser = share)]
     prune: Option<f64>,
 }
 
 impl Pruning {
-    /// The dataset pruned as asked for, its origin saying so.
+    /// Prunes the dataset as asked for, and notes that in its origin.
     pub(super) fn applied_to(&self, mut dataset: Dataset) -> Dataset {
         if let Some(share) = self.prune {
             let rows = dataset.search.rows();

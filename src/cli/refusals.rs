@@ -1,8 +1,8 @@
-//! Why a search has ended without a formula.
+//! Explains why a search ended without a formula.
 
 use crate::run::Run;
 
-/// Which refusal took all of a run's candidates; `archived` of them were left at the end.
+/// Says which refusal took all of a run's candidates; `archived` of them were left at the end.
 pub fn of_all(run: &Run, archived: usize) -> String {
     let counts = &run.counts;
     if archived > 0 {

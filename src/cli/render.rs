@@ -11,33 +11,35 @@ use crate::wording::cycles_text;
 use serde::Serialize;
 use std::path::PathBuf;
 
-/// Draw spheres with the truth, with a formula, and their difference, as a PNG
+/// Draw spheres shaded with the truth, with a formula, and their difference, as a PNG
 ///
-/// A row over roughness each, displayed in sRGB. Known are the columns of dfg, area_light, area_norm,
-/// fresnel, smith_g1, smith_g2 and disney_zh (zh0).
+/// One row each, roughness rising from left to right, displayed in sRGB. Works for runs with the
+/// columns of dfg, area_light, area_norm, fresnel, smith_g1, smith_g2 or disney_zh (zh0).
+///
+/// For example: lgp render runs/dfg --environment studio
 #[derive(clap::Args)]
 pub struct Args {
-    /// A folder that `lgp search` or `lgp merge` wrote
+    /// A run: a folder that `lgp search` or `lgp merge` wrote
     run: PathBuf,
     #[command(flatten)]
     which: Which,
-    /// Which formula: its number in the table, or the knee
+    /// The formula to draw: its number in the table, or the knee
     #[arg(long, value_name = "knee|N", default_value = "knee")]
     pick: String,
-    /// What surrounds the spheres: uniform, sky or studio
+    /// The surroundings that light the spheres: uniform, sky or studio
     #[arg(long, value_name = "E", default_value_t)]
     environment: Environment,
-    /// Perceptual roughness of each column
+    /// Perceptual roughness of each column of spheres
     #[arg(long, value_name = "R,…", value_delimiter = ',', value_parser = unit)]
     #[arg(default_values_t = ROUGHNESSES)]
     roughness: Vec<f32>,
     /// Reflectance at normal incidence
     #[arg(long, value_name = "F", default_value_t = Settings::default().f0, value_parser = unit)]
     f0: f32,
-    /// Full angle of a spherical light's cone, in radians
+    /// Full angle of the cone of a spherical light, in radians
     #[arg(long, value_name = "A", default_value_t = Settings::default().omega, value_parser = unit)]
     omega: f32,
-    /// In stops
+    /// Exposure, in stops
     #[arg(long, value_name = "S", default_value_t = Settings::default().exposure, value_parser = stops)]
     #[arg(allow_hyphen_values = true)]
     exposure: f32,
@@ -45,13 +47,13 @@ pub struct Args {
     #[arg(long, value_name = "N", default_value_t = SIZE)]
     #[arg(value_parser = clap::value_parser!(u16).range(16..=1024))]
     size: u16,
-    /// The spheres alone, side by side, without words
+    /// Draw the spheres alone, side by side, without text
     #[arg(long)]
     bare: bool,
-    /// Where the picture is written [default: spheres.png in the folder]
+    /// The picture to write [default: spheres.png in the run's folder]
     #[arg(long, short, value_name = "FILE")]
     output: Option<PathBuf>,
-    /// The dataset, if it is not where the run found it
+    /// The dataset, if it is no longer where the run found it
     #[arg(long, value_name = "FILE")]
     dataset: Option<PathBuf>,
 }
@@ -74,7 +76,7 @@ fn stops(text: &str) -> Result<f32, String> {
 struct Written {
     #[serde(serialize_with = "crate::cli::output::readable")]
     picture: PathBuf,
-    /// Root mean square of the displayed differences, over all spheres, channels in [0, 1].
+    /// The root mean square of displayed differences over all spheres, channels in [0, 1].
     displayed_rmse: f64,
 }
 
@@ -84,7 +86,7 @@ pub fn run(args: &Args, common: &Common) -> Result<(), Failure> {
     let Subject { dataset, .. } = match &args.dataset {
         Some(path) => Subject::of_run_at(&run, path)?,
         None => Subject::of_run(&mut run, &args.run).map_err(|problem| {
-            let message = format!("{problem}; --dataset says where the data are");
+            let message = format!("{problem}; give its path with --dataset");
             Failure::input(message)
         })?,
     };

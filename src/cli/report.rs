@@ -8,23 +8,25 @@ use crate::run::Folder;
 use serde::Serialize;
 use std::path::PathBuf;
 
-/// Make the page of a run: its front to click through, code to copy, error maps
+/// Make a page of a run: its front to click through, code to copy, error maps
 ///
-/// Writes report.html into the folder, one file that needs no network, and pictures beside it. The same
-/// folder and dataset give the same bytes.
+/// Writes report.html into the run's folder, one file that needs no network, and pictures beside
+/// it. The same run and dataset give the same bytes.
+///
+/// For example: lgp report runs/dfg
 #[derive(clap::Args)]
 pub struct Args {
-    /// A folder that `lgp search` or `lgp merge` wrote; several are compared, those that differ only in
-    /// their seeds as one
+    /// Runs: folders that `lgp search` or `lgp merge` wrote; several are compared, and those that
+    /// differ only in their seeds are taken together
     #[arg(required = true)]
     runs: Vec<PathBuf>,
-    /// Where a comparison is written [default: comparison.html]
+    /// The page of a comparison to write [default: comparison.html]
     #[arg(long, short, value_name = "FILE")]
     output: Option<PathBuf>,
-    /// The dataset, if it is not where the run found it
+    /// The dataset, if it is no longer where the run found it
     #[arg(long, value_name = "FILE")]
     dataset: Option<PathBuf>,
-    /// Measure first what an evaluation takes on this processor, and keep it in the folder
+    /// First measure how long an evaluation takes on this processor, and keep that in the folder
     #[arg(long)]
     measure: bool,
 }
@@ -48,7 +50,7 @@ pub fn run(args: &Args, common: &Common) -> Result<(), Failure> {
             let (mut report, problem) = Report::load(folder, args.dataset.as_deref())?;
             if let Some(problem) = problem {
                 common.note(&format!(
-                    "{problem}\nthe page has no maps; --dataset says where the data are"
+                    "{problem}\nthe page has no maps; give its path with --dataset"
                 ));
             }
             // As `lgp emit` does, so that its code and the page's are the same.

@@ -1,4 +1,4 @@
-//! A search that goes on: its options are those of its run.
+//! Resumed searches, which take their options from their run.
 
 use super::plan::{Plan, budget, default_folders, requirements, transforms};
 use super::search::Args;
@@ -13,7 +13,8 @@ use crate::search::{Goal, Problem, Transform};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-/// The plan of the run in the output folder; what is said of it again must be as it was.
+/// Returns the plan of the run in the output folder; options that are given again must be as they
+/// were.
 pub fn resumed(args: &Args, common: &Common) -> Result<Plan, Failure> {
     let path = match (&args.out, &args.dataset) {
         (Some(out), _) => out.clone(),
@@ -64,7 +65,7 @@ pub fn resumed(args: &Args, common: &Common) -> Result<Plan, Failure> {
     Ok(Plan { subject, session })
 }
 
-/// The only one of `runs/NAME`, `runs/NAME-2` and so on that can be gone on with.
+/// Returns the only one of `runs/NAME`, `runs/NAME-2` and so on that can be resumed.
 fn the_one_of(name: &str) -> Result<PathBuf, Failure> {
     let there = default_folders(name).take_while(|path| path.exists());
     let held = there.filter(|path| Holding::of(path) != Holding::NoRun).collect::<Vec<_>>();
@@ -96,7 +97,7 @@ fn check_resumable(folder: &Path) -> Result<(), Failure> {
     Ok(())
 }
 
-/// The first option that is given and is not what the run has, and both.
+/// Returns the first option that is given and differs from the run's, with both values.
 fn difference(
     args: &Args,
     common: &Common,
@@ -167,7 +168,7 @@ fn described(transforms: &[Option<Transform>], dataset: &Dataset) -> String {
     given.map(|(name, transform)| format!("{name}={transform}")).collect::<Vec<_>>().join(",")
 }
 
-/// What a run may spend all in all that is gone on with.
+/// Returns the whole budget of a run that is resumed, including what is spent.
 fn budget_left(args: &Args, run: &Run, folder: &Path) -> Result<Budget, Failure> {
     let (seconds, generations) = (run.seconds, run.generations);
     let given = budget(args);

@@ -1,3 +1,5 @@
+//! `lgp scene`: scenes from what is logged of a use.
+
 use super::output::check_writable;
 use super::{Common, Failure};
 use crate::dataset::{Error, Table, replace_file};
@@ -6,7 +8,7 @@ use clap::Subcommand;
 use serde::Serialize;
 use std::path::{Path, PathBuf};
 
-/// Make a scene of what is known of a use
+/// Make a scene: a file that says what a use needs of a dataset
 #[derive(clap::Args)]
 pub struct Args {
     #[command(subcommand)]
@@ -18,28 +20,30 @@ enum From {
     From(FromArgs),
 }
 
-/// Make a scene of logged pixels: which values of the inputs occur, and how often
+/// Make a scene from logged pixels: which values of the inputs occur, and how often
 ///
-/// The log is a CSV table, one row a pixel, its columns called like the dataset's inputs. A column
-/// called `weight` weighs the rows. Columns that never change become fixed inputs.
+/// The log is a CSV table with a row for each pixel, its columns called like the dataset's inputs.
+/// A column called `weight` weighs the rows. Columns that never change become fixed inputs.
+///
+/// For example: lgp scene from pixels.csv -o satin.ron
 #[derive(clap::Args)]
 struct FromArgs {
     /// The table: comma-separated numbers under a line of column names
     log: PathBuf,
-    /// Where to write the scene [default: the table's name with .ron]
+    /// The scene to write [default: the table's name with .ron]
     #[arg(short, long, value_name = "FILE")]
     output: Option<PathBuf>,
-    /// Only these columns [default: all]
+    /// Use only these columns [default: all]
     #[arg(long, value_name = "A,B", value_delimiter = ',')]
     inputs: Option<Vec<String>>,
     /// The column that weighs the rows [default: weight, if there is one]
     #[arg(long, value_name = "COLUMN")]
     weight: Option<String>,
-    /// Bins along each input
+    /// The number of histogram bins along each input
     #[arg(long, value_name = "N", default_value_t = 16)]
     #[arg(value_parser = clap::value_parser!(u16).range(1..=256))]
     bins: u16,
-    /// A histogram of each input by itself [default: one of all, if they are three at most]
+    /// Make a histogram for each input by itself [default: one for all, up to three inputs]
     #[arg(long)]
     separate: bool,
 }
@@ -102,7 +106,7 @@ fn weights(args: &FromArgs, table: &Table) -> Result<Option<usize>, Failure> {
     }
 }
 
-/// The inputs' columns.
+/// Returns the columns of the inputs.
 fn columns(args: &FromArgs, table: &Table) -> Result<Vec<usize>, Failure> {
     let weight = args.weight.as_deref().unwrap_or(WEIGHT);
     let indices: Vec<usize> = match &args.inputs {

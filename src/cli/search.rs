@@ -1,3 +1,5 @@
+//! `lgp search`: a search, from its options to its report.
+
 use super::output::to_stderr;
 use super::plan::Plan;
 use super::progress::{LiveFront, Phases};
@@ -12,75 +14,80 @@ use crate::wording::front_table;
 use std::path::{Path, PathBuf};
 use std::time::Duration;
 
-/// Search formulas for a dataset: a front of error against GPU cycles
+/// Search for formulas that fit a dataset: a front of error against GPU cycles
 ///
-/// Ends with the front as a table, published formulas beside it, and a function to paste.
-/// Ctrl-C stops early and keeps everything; once more, what follows the search, too.
+/// Prints the front as a table, with published formulas beside it, and a function to paste. The run
+/// is kept in a folder, for `lgp emit`, `lgp report` and others. Ctrl-C stops early and keeps
+/// everything; a second one also cuts short what follows the search.
+///
+/// For example: lgp search datasets/dfg.bin --time 60s --max-cost 16
 #[derive(clap::Args)]
 pub struct Args {
-    /// A dataset, as `lgp generate` and `lgp import` write them; --resume with --out needs none
+    /// The dataset: a file from `lgp generate` or `lgp import`; not needed for --resume with --out
     #[arg(required_unless_present = "resume")]
     pub(super) dataset: Option<PathBuf>,
     #[command(flatten)]
     pub(super) columns: Columns,
-    /// What is needed of the dataset: a scene beside it, or a .ron file
+    /// Fit only what a scene needs of the dataset: a scene beside it, or a .ron file
     #[arg(long, value_name = "S")]
     pub(super) scene: Option<String>,
-    /// What may be written: a built-in grammar, or a .ron file [default: shader]
+    /// The grammar of formulas: a built-in one, or a .ron file [default: shader]
     #[arg(long, value_name = "G")]
     pub(super) grammar: Option<String>,
-    /// What it costs: a GPU profile, built in or a .ron file, or a mix such as gcn:2,turing:1
-    /// [default: gcn]
+    /// The GPU to count cycles for: a built-in profile, a .ron file, or a mix such as
+    /// gcn:2,turing:1 [default: gcn]
     #[arg(long, value_name = "P")]
     pub(super) gpu: Option<String>,
-    /// How long it may take until all is written, as in 60s, 10m [default: until little
-    /// improves, 60s at most; unless --generations is given]
+    /// The time for everything, writing included, as in 60s or 10m [default: until little improves,
+    /// at most 60s; no limit with --generations]
     #[arg(long, value_parser = argument::duration)]
     pub(super) time: Option<Duration>,
-    /// Stop after N generations: with the same seed the same front, whatever the threads
+    /// Stop after N generations; the same seed then gives the same front, on any number of threads
     #[arg(long, value_name = "N")]
     pub(super) generations: Option<u64>,
-    /// The most cycles that a formula may cost [default: 40, or what the scene's tiers may spend]
+    /// The most cycles that a formula may cost [default: 40, or the largest budget of the scene's
+    /// tiers]
     #[arg(long, value_name = "C", value_parser = argument::cycles, allow_hyphen_values = true)]
     pub(super) max_cost: Option<f64>,
-    /// What is made small: rmse, max, weighted (by the dataset's weights) or relative [default: rmse,
-    /// or weighted where the dataset has weights]
+    /// The error to minimise: rmse, max, weighted (by the dataset's weights) or relative [default:
+    /// rmse, or weighted if the dataset has weights]
     #[arg(long, value_name = "MEASURE")]
     pub(super) loss: Option<Measure>,
-    /// What every formula must be: finite, range=0..1, half=1e-2 (its error in f16), rising=INPUT,
-    /// falling=INPUT, ends=INPUT (exact where an input's domain ends), uses=OPERATION or INPUT;
+    /// Conditions on every formula: finite, range=0..1, half=1e-2 (error in f16), rising=INPUT,
+    /// falling=INPUT, ends=INPUT (exact at the ends of its domain), uses=OPERATION or uses=INPUT;
     /// `bias.range=0..1` is for one output
     #[arg(long, value_name = "CONDITION", value_delimiter = ',')]
     pub(super) require: Vec<String>,
-    /// Search for a function of an output (rcp, log2 or sqrt) within its inverse, which every formula
-    /// pays for unless algebra removes it; the error is measured on the output itself
+    /// Search for rcp, log2 or sqrt of an output; formulas then apply the inverse, and pay for it
+    /// unless algebra removes it. The error is measured on the output itself
     #[arg(long, value_name = "OUTPUT=F", value_delimiter = ',')]
     pub(super) transform: Vec<String>,
-    /// Populations that evolve apart (part of what a seed repeats) [default: 8]
+    /// The number of populations that evolve apart; the same seed repeats a search only with the
+    /// same number [default: 8]
     #[arg(long, value_name = "N")]
     #[arg(value_parser = clap::value_parser!(u16).range(1..=MAX_ISLANDS as i64))]
     pub(super) islands: Option<u16>,
-    /// Try all formulas of at most C cycles first [default: of 1 cycle, if they are few]
+    /// First try all formulas of at most C cycles [default: of 1 cycle, if they are few]
     #[arg(long, value_name = "C")]
     pub(super) exhaustive: Option<f64>,
-    /// The share of candidates that are made at random, not from others; 1 for random restarts
-    /// [default: 0]
+    /// The share of candidates made at random, not from others; 1 for random restarts [default: 0]
     #[arg(long, value_name = "SHARE", value_parser = argument::share)]
     pub(super) immigrants: Option<f64>,
-    /// A formula to start from, over the dataset's columns; may be given more than once
+    /// A formula over the dataset's columns to start from; can be given several times
     #[arg(long, value_name = "FORMULA")]
     pub(super) guess: Vec<String>,
-    /// Where the run is written [default: runs/NAME, or runs/NAME-2 and so on if that is taken]
+    /// The folder to write the run to [default: runs/NAME, or runs/NAME-2 and so on if that is
+    /// taken]
     #[arg(long, value_name = "DIR")]
     pub(super) out: Option<PathBuf>,
-    /// Go on with the run in the output folder, where it stopped; its options need not be given again,
-    /// a longer --time or more --generations may be
+    /// Continue the run in the output folder from where it stopped, with the options it had; --time
+    /// and --generations may be raised
     #[arg(long)]
     pub(super) resume: bool,
     /// Replace the run that is in the output folder
     #[arg(long, conflicts_with = "resume", requires = "out")]
     pub(super) force: bool,
-    /// Say on stderr how many seconds each phase took
+    /// Print how many seconds each phase took, on stderr
     #[arg(long)]
     timings: bool,
 }
@@ -105,7 +112,7 @@ pub fn run(args: &Args, common: &Common) -> Result<(), Failure> {
     let Outcome { run, front, .. } = &outcome;
     let table = front_table(front, &incumbents, &run.names().outputs);
     let written = session.write(&outcome, vec![(FRONT_TABLE.to_owned(), table.clone().into())]);
-    // Whatever became of the files, what was found is shown.
+    // What was found is shown even if files could not be written.
     let folder = session.folder().unwrap_or(Path::new("")).to_owned();
     show(common, &outcome, table, &folder)?;
     written?;
@@ -134,7 +141,7 @@ pub fn run(args: &Args, common: &Common) -> Result<(), Failure> {
     tiers::check(run, front)
 }
 
-/// Goes on as long as it may.
+/// Steps until the budget is spent or the user stops it.
 fn search(session: &mut Session, common: &Common) -> Result<(), Failure> {
     let bar = LiveFront::new(common);
     let mut warned = String::new();

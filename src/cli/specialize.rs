@@ -1,3 +1,5 @@
+//! `lgp specialize`: formulas cut to a scene.
+
 use super::eval::{assigned_outputs, settled};
 use super::run_folder::{self, Which};
 use super::{Common, Failure, columns::Columns};
@@ -13,40 +15,43 @@ use serde::Serialize;
 use std::fmt::Write;
 use std::path::{Path, PathBuf};
 
-/// Cut a formula, or a run's front, to a scene
+/// Simplify a formula, or a run's front, for a scene
 ///
-/// Fixed inputs are folded, operations that never act dropped; then terms are removed one after the other,
-/// constants fitted again. Ends with every step, cycles saved against error added, and the front that
-/// the steps and what was tried beside them make.
+/// Folds fixed inputs, drops operations that never act, then removes terms one after the other and
+/// fits the constants again. Prints every step, cycles saved against error added, and the front of
+/// all formulas that were tried.
 ///
-/// For example: lgp specialize "bias = saturate(1 - roughness - n_dot_v)^2" datasets/dfg.bin --scene satin
+/// For example: lgp specialize "bias = saturate(1 - roughness - n_dot_v)^2" datasets/dfg.bin
+/// --scene satin
 #[derive(clap::Args)]
 pub struct Args {
-    /// Statements `name = expression` over the dataset's columns, a published formula's name, or a
-    /// folder that `lgp search` wrote
+    /// Statements `name = expression`, separated by `;`, over the dataset's columns, the name of a
+    /// published formula, or a folder that `lgp search` wrote
     formula: String,
-    /// A dataset, as `lgp generate` and `lgp import` write them
+    /// The dataset: a file from `lgp generate` or `lgp import`
     dataset: PathBuf,
-    /// What is needed of the dataset: a scene beside it, or a .ron file
+    /// The scene: one beside the dataset, or a .ron file
     #[arg(long, value_name = "S")]
     scene: String,
     #[command(flatten)]
     columns: Columns,
-    /// What it costs: a GPU profile, built in or a .ron file, or a mix such as gcn:2,turing:1
+    /// The GPU to count cycles for: a built-in profile, a .ron file, or a mix such as
+    /// gcn:2,turing:1
     #[arg(long, value_name = "P", default_value = "gcn")]
     gpu: String,
-    /// What is made small: rmse, max, weighted (by the scene's weights) or relative [default: rmse,
-    /// or weighted where the scene or the dataset has weights]
+    /// The error to minimise: rmse, max, weighted (by the scene's weights) or relative [default:
+    /// rmse, or weighted if the scene or the dataset has weights]
     #[arg(long, value_name = "MEASURE")]
     loss: Option<Measure>,
-    /// The most that a formula may err on the search split [default: what the scene's tiers allow, or anything]
+    /// The largest error allowed on the search split [default: what the scene's tiers allow, or
+    /// any]
     #[arg(long, value_name = "E")]
     max_error: Option<f64>,
 }
 
 #[derive(Serialize)]
 struct Specialized {
-    /// None for a run's front.
+    /// Empty for a run's front.
     steps: Vec<StepRecord>,
     front: Vec<MemberRecord>,
 }
@@ -54,9 +59,9 @@ struct Specialized {
 #[derive(Serialize)]
 struct StepRecord {
     change: String,
-    /// Cycles, against the step before.
+    /// Cycles saved by this step.
     saved: f64,
-    /// In the measure that is made small, on the search split, against the step before.
+    /// Error added by this step, in the measure that is minimised, on the search split.
     added: Option<f64>,
     #[serde(flatten)]
     member: MemberRecord,
@@ -84,14 +89,15 @@ pub fn run(args: &Args, common: &Common) -> Result<(), Failure> {
     common.result(&Specialized { steps, front: records }, &text)
 }
 
-/// The largest error that a tier allows, if each says so.
+/// Returns the largest error that a tier allows, if every tier has a limit.
 fn tiers_allow(subject: &Subject) -> Option<f64> {
     let tiers = subject.scene.as_ref().map_or(&[][..], |scene| &scene.tiers);
     let errors: Option<Vec<f64>> = tiers.iter().map(|(_, tier)| tier.max_error).collect();
     errors?.into_iter().reduce(f64::max)
 }
 
-/// The formula that was given, or the published one of that name, and the outputs that it defines.
+/// Returns the formula that was given, or the published one of that name, and the outputs that it
+/// defines.
 fn formula(args: &Args, subject: &Subject) -> Result<(Program, Vec<String>), Failure> {
     let is_name = args.formula.chars().all(|c| c.is_ascii_alphanumeric() || c == '_');
     if is_name {
@@ -139,7 +145,7 @@ impl Task<'_> {
         })
     }
 
-    /// The front that all members of a run's make together, and what the run was.
+    /// Returns the front of all specialised members of a run's front, and a description of the run.
     fn of_run(&self, folder: &Path) -> Result<(Front, String), Failure> {
         let (run, front) = run_folder::load(folder, Which { minimax: false })?;
         let Names { inputs, outputs } = run.names();
@@ -173,7 +179,7 @@ impl Task<'_> {
         Front::from_members(members.into_iter().filter(usable).collect(), self.measure)
     }
 
-    /// The steps, recorded and as a table.
+    /// Returns the steps, as records and as a table.
     fn steps(&self, done: &Specialization) -> (Vec<StepRecord>, String) {
         let names = self.subject.dataset.names();
         let mut text = format!(

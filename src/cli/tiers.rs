@@ -1,4 +1,4 @@
-//! The tiers of a run's scene: what each can afford.
+//! The tiers of a run's scene, and the formulas that each can afford.
 
 use super::Failure;
 use crate::run::Run;
@@ -15,7 +15,7 @@ fn afforded(tier: Tier, front: &Front) -> Option<&FrontMember> {
     front.within(tier.max_cost, tier.max_error)
 }
 
-/// A line for each tier.
+/// Returns a line for each tier.
 pub fn table(run: &Run, front: &Front) -> String {
     let lines = of(run).iter().map(|(name, tier)| match afforded(*tier, front) {
         Some(member) => format!(
@@ -37,7 +37,7 @@ fn limits(tier: Tier) -> String {
     cost.into_iter().chain(error).collect::<Vec<_>>().join(", ")
 }
 
-/// Fails where a tier is not met.
+/// Fails if a tier is not met.
 pub fn check(run: &Run, front: &Front) -> Result<(), Failure> {
     match of(run).iter().find(|(_, tier)| afforded(*tier, front).is_none()) {
         Some((name, tier)) => Err(unmet(name, *tier)),
@@ -45,7 +45,7 @@ pub fn check(run: &Run, front: &Front) -> Result<(), Failure> {
     }
 }
 
-/// What a tier can afford.
+/// Returns the best formula that a tier can afford.
 pub fn pick<'a>(run: &Run, front: &'a Front, name: &str) -> Result<&'a FrontMember, Failure> {
     let tiers = of(run);
     let Some((_, tier)) = tiers.iter().find(|(known, _)| known == name) else {

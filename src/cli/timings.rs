@@ -1,4 +1,4 @@
-//! What the phases of a run took.
+//! How long the phases of a run took.
 
 use std::fmt;
 use std::time::Instant;
@@ -10,18 +10,18 @@ pub struct Timings {
 }
 
 impl Timings {
-    /// The first phase begins.
+    /// Begins the first phase.
     pub fn new() -> Timings {
         let start = Instant::now();
         Timings { start, last: start, phases: Vec::new() }
     }
 
-    /// When the first phase began.
+    /// Returns when the first phase began.
     pub fn start(&self) -> Instant {
         self.start
     }
 
-    /// A phase is over, and the next begins.
+    /// Ends a phase, and begins the next.
     pub fn note(&mut self, phase: &'static str) {
         let now = Instant::now();
         self.phases.push((phase, (now - self.last).as_secs_f64()));

@@ -1,3 +1,5 @@
+//! `lgp verify`: a shader file against the data and its own comment.
+
 use super::{Common, Failure};
 use crate::dataset::Dataset;
 use crate::emit::{Language, MAX_SNIPPET, ReadBack, Stated, StatedError, read_back};
@@ -12,26 +14,29 @@ use std::fmt::Display;
 use std::io::Read;
 use std::path::{Path, PathBuf};
 
-/// Verify a shader file against the data, for your own CI
+/// Check a shader file against the data, for your own CI
 ///
-/// Reads the function back, straight-line code of floats or halves as `lgp emit` writes it, and evaluates
-/// it on every sample in that precision. It fails, with exit code 4, where the error is too large, and
-/// where the code does not compute the formula in the comment above it, if there is one: the line marked
-/// by `formula:`, or else the one that says `OUTPUT = …`. What compilers might understand otherwise is
-/// refused with its line: integers, other types, lines of the preprocessor, a backslash at a line's end.
+/// Reads the function back (straight-line code of floats or halves, as `lgp emit` writes it) and
+/// evaluates it on every sample in that precision. Fails with exit code 4 if the error is too
+/// large, or if the code does not compute the formula in the comment above it: the line marked by
+/// `formula:`, or else the one that says `OUTPUT = …`. Code that compilers might understand
+/// otherwise is refused with its line: integers, other types, lines of the preprocessor, a
+/// backslash at a line's end.
+///
+/// For example: lgp verify dfg.wgsl datasets/dfg.bin --max-error 0.01
 #[derive(clap::Args)]
 pub struct Args {
     #[arg(help = format!("A {} file with one function", extensions()))]
     snippet: PathBuf,
-    /// A dataset, as `lgp generate` and `lgp import` write them
+    /// The dataset: a file from `lgp generate` or `lgp import`
     dataset: PathBuf,
-    /// On what a scene needs of the dataset: a scene beside it, or a .ron file
+    /// Evaluate on what a scene needs of the dataset: a scene beside it, or a .ron file
     #[arg(long, value_name = "S")]
     scene: Option<String>,
-    /// The largest RMSE over the outputs, on the search split, as `lgp front` shows it
+    /// The largest RMSE allowed, over the outputs, on the search split, as `lgp front` shows it
     #[arg(long, value_name = "E", value_parser = error_bound)]
     max_error: f64,
-    /// The columns that the function returns, in order [default: the names of what it returns]
+    /// The columns that the function returns, in order [default: the names in the function]
     #[arg(long, value_name = "A,B", value_delimiter = ',')]
     outputs: Option<Vec<String>>,
 }
@@ -39,15 +44,15 @@ pub struct Args {
 #[derive(Serialize)]
 struct Verified {
     met: bool,
-    /// Whether it is a function of halves, and judged as one.
+    /// True for a function of halves, judged as one.
     half: bool,
     max_error_allowed: f64,
     rmse: f64,
     max_error: f64,
     validation: OutputError,
-    /// By output, on the search split.
+    /// The errors by output, on the search split.
     errors: BTreeMap<String, OutputError>,
-    /// Whether the code computes the formula in its comment; null where there is none.
+    /// True if the code computes the formula in its comment; null where there is none.
     as_commented: Option<bool>,
 }
 
@@ -97,7 +102,7 @@ fn unmet(path: &Path, reason: &dyn Display) -> Failure {
     Failure::unmet(format!("{}: {reason}", path.display()))
 }
 
-/// The file, as far as a snippet can be long.
+/// Reads the file, up to the longest possible snippet.
 fn snippet_text(path: &Path) -> Result<String, Failure> {
     let cannot = |error: std::io::Error| unusable(path, &format!("cannot be read: {error}"));
     let mut text = Vec::new();
@@ -113,7 +118,7 @@ fn snippet_text(path: &Path) -> Result<String, Failure> {
     })
 }
 
-/// In the code's own precision.
+/// Scores the code in its own precision.
 fn score(code: &ReadBack, dataset: &Dataset) -> Score {
     if !code.in_half {
         return Score::of(&code.program, dataset, &mut Evaluator::default());
@@ -144,12 +149,12 @@ fn language_of(path: &Path) -> Result<Language, Failure> {
     })
 }
 
-/// Those of the languages that can be read.
+/// Lists the file extensions that can be read.
 fn extensions() -> String {
     Language::list(Language::SHADING, "or", |language| format!(".{}", language.extension()))
 }
 
-/// The dataset's names for what the function takes and returns.
+/// Returns the dataset's names for what the function takes and returns.
 fn columns(
     mut names: Names,
     outputs: Option<&[String]>,
@@ -168,7 +173,7 @@ fn columns(
     }
     let columns = dataset.inputs.iter().chain(&dataset.outputs);
     let known: Vec<String> = columns.map(|column| column.name.clone()).collect();
-    // A function that returns an expression is called after the data and its output.
+    // A function that returns an expression is named after the data and its output.
     for output in &mut names.outputs {
         let named = known.iter().find(|name| output.ends_with(&format!("_{name}")));
         if let Some(name) = named.filter(|_| !known.contains(output)) {
@@ -193,7 +198,7 @@ fn columns(
     Ok(names)
 }
 
-/// The formula in the comment, which calls the outputs what the dataset does, or the function.
+/// Returns the formula in the comment, which names outputs as the dataset does, or as the function.
 fn stated(code: &ReadBack, names: &Names) -> Result<Option<Stated>, StatedError> {
     let as_function = || code.stated(&code.names.outputs);
     match code.stated(&names.outputs) {
@@ -203,7 +208,7 @@ fn stated(code: &ReadBack, names: &Names) -> Result<Option<Stated>, StatedError>
     }
 }
 
-/// How the code is not the formula that its comment says.
+/// Explains how the code differs from the formula in its comment.
 fn mismatch(code: &ReadBack, stated: &Stated, dataset: &Dataset, names: &Names) -> Option<String> {
     let reason = match code.in_half {
         true if code.is(&stated.program) => return None,
@@ -217,7 +222,7 @@ fn mismatch(code: &ReadBack, stated: &Stated, dataset: &Dataset, names: &Names) 
     ))
 }
 
-/// Whether two programs compute the same on the data, bit for bit; if not, where not.
+/// Checks that two programs compute the same on the data, bit for bit; the error says where not.
 fn difference(
     program: &Program,
     formula: &Program,

@@ -1,4 +1,4 @@
-//! The statements of a function, all of one precision or of two.
+//! The statements of a function, in one precision or two.
 
 use super::naming::Naming;
 use super::syntax::{Binding, Signature, Spelling, Syntax, Written, pieces, power};
@@ -8,8 +8,8 @@ use crate::program::spelling::{filled, move_signs, negated_product};
 use crate::program::{Arg, Program};
 use half::f16;
 
-/// One for each output, and for each result that is read or written more than once or too long
-/// to be read in place.
+/// Returns a statement for each output, and for each result that is read or written more than once,
+/// or too long to stand where it is read.
 pub(super) fn statements(
     syntaxes: Syntaxes,
     program: &Program,
@@ -35,8 +35,8 @@ pub(super) fn statements(
     body.statements
 }
 
-/// How a function is written, and those of its instructions that are written otherwise: in single
-/// precision within a function of halves.
+/// The syntax of a function, and of those instructions that stay in single precision within a
+/// function of halves.
 #[derive(Clone, Copy)]
 pub(super) struct Syntaxes<'a> {
     pub function: &'static Syntax,
@@ -58,12 +58,12 @@ impl Syntaxes<'_> {
     }
 }
 
-/// What is written for an instruction.
+/// The form in which an instruction is written.
 #[derive(Clone, Copy, Debug, PartialEq)]
 enum Form {
-    /// Its value, as it depends on no input.
+    /// The value of an instruction that depends on no input.
     Constant(f32),
-    /// So many factors of the same value.
+    /// A value to an integer power.
     Power(Arg, u32),
     Operation,
 }
@@ -107,12 +107,12 @@ fn forms(program: &Program, syntaxes: Syntaxes) -> Vec<Form> {
     forms
 }
 
-/// A constant in the language's precision.
+/// Rounds a constant to the language's precision.
 fn rounded(value: f32, syntax: &Syntax) -> f32 {
     if syntax.half { f16::from_f32(value).to_f32() } else { value }
 }
 
-/// How often each result is read by an output or by what is written.
+/// Counts how often each result is read, by an output or by what is written.
 fn use_counts(program: &Program, forms: &[Form]) -> Vec<u32> {
     let mut counts = vec![0; program.instrs.len()];
     let count = |args: &[Arg], counts: &mut Vec<u32>| {
@@ -134,13 +134,13 @@ fn use_counts(program: &Program, forms: &[Form]) -> Vec<u32> {
     counts
 }
 
-/// What a reader of a value writes for it.
+/// The text of a value, as its reader writes it.
 #[derive(Clone)]
 struct Code {
     written: Written,
-    /// Whether it is a whole expression, that could be given a name instead.
+    /// True for a whole expression, which could be given a name instead.
     in_place: bool,
-    /// Whether its value is a half.
+    /// True if the value is a half.
     half: bool,
 }
 
@@ -149,7 +149,7 @@ impl Code {
         Code { written: Written::name(text), in_place: false, half: syntax.half }
     }
 
-    /// The negated value, where that takes a sign away.
+    /// Returns the negated value, if that takes a sign away.
     fn turned(&self) -> Option<Code> {
         Some(Code { written: self.written.turned()?, ..*self })
     }
@@ -163,7 +163,7 @@ struct Body<'a, 'n> {
     forms: Vec<Form>,
     codes: Vec<Code>,
     statements: Vec<String>,
-    /// The bits of each infinity or NaN declared so far, whether it is a half, and its name.
+    /// Infinities and NaNs declared so far: bits, whether a half, and name.
     non_finite: Vec<(u32, bool, String)>,
 }
 
@@ -201,7 +201,7 @@ impl Body<'_, '_> {
         Code::name(name, syntax)
     }
 
-    /// Outputs that are inputs, constants, or another output's result.
+    /// Writes the outputs that are inputs, constants, or another output's result.
     fn remaining_outputs(&mut self) {
         for (o, &arg) in self.program.outputs.iter().enumerate() {
             let first = self.program.outputs.iter().position(|&other| other == arg);
@@ -230,8 +230,8 @@ impl Body<'_, '_> {
         self.written(op, args, syntax)
     }
 
-    /// The product of two numbers in a multiply-add that is written as a product and a sum: compilers
-    /// would differ in the precision in which they compute it.
+    /// Returns the product of two numbers in a multiply-add that is written as a product and a sum:
+    /// compilers would compute it in different precisions.
     fn known_product(&self, args: &[Arg], syntax: &Syntax) -> Option<f32> {
         if (syntax.spelling)(Op::Mad).binding == Binding::Atom {
             return None;
@@ -269,7 +269,7 @@ impl Body<'_, '_> {
         self.expression_of(spelling, &mut args, syntax)
     }
 
-    /// The arguments are as they are written: some may have become locals.
+    /// Writes the instruction's expression; arguments may have become locals by now.
     fn expression_of(
         &mut self,
         spelling: Spelling,
@@ -294,13 +294,13 @@ impl Body<'_, '_> {
         Code { written, in_place: true, half: syntax.half }
     }
 
-    /// Makes the expression a local.
+    /// Turns the expression into a local.
     fn name(&mut self, code: &mut Code) {
         let name = self.naming.temporary();
         *code = self.declare(name, &code.written.text, self.syntaxes.of_halves(code.half));
     }
 
-    /// The value in the precision of its reader.
+    /// Converts the value to its reader's precision.
     fn converted(&self, code: Code, to: &Syntax) -> Code {
         if code.half == to.half {
             return code;

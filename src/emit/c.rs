@@ -1,4 +1,4 @@
-//! C, of 1999 and later; the same text is C++.
+//! C99 and later; the same text is C++.
 
 use super::c_family;
 use super::syntax::{
@@ -74,7 +74,8 @@ fn open(syntax: &Syntax, signature: &Signature, lines: &mut Vec<String>) {
     lines.push(c_family::head(syntax, signature, returned));
 }
 
-/// Names that begin with an underscore are the compiler's.
+/// Returns true for keywords, functions, macros, and names that begin with an underscore, which
+/// belong to the compiler.
 fn reserved(name: &str) -> bool {
     let double = name.strip_suffix(['f', 'l']).unwrap_or(name);
     name.starts_with('_')
@@ -85,7 +86,7 @@ fn reserved(name: &str) -> bool {
         || is_word(FUNCTIONS, double)
 }
 
-/// Those of C23 (§6.4.1) and of C++20 ([lex.key]), and what compilers predefine.
+/// Keywords of C23 (§6.4.1) and of C++20 ([lex.key]), and macros that compilers predefine.
 const KEYWORDS: &str = "alignas alignof and and_eq asm atomic_cancel atomic_commit \
     atomic_noexcept auto bitand bitor bool break case catch char char8_t char16_t char32_t class \
     co_await co_return co_yield compl concept const const_cast consteval constexpr constinit \
@@ -97,7 +98,7 @@ const KEYWORDS: &str = "alignas alignof and and_eq asm atomic_cancel atomic_comm
     typeof_unqual union unsigned using virtual void volatile wchar_t while xor xor_eq main std \
     double_t float_t fortran linux unix";
 
-/// `math.h` of C23 (§7.12) and of glibc 2.36.
+/// Macros of `math.h` in C23 (§7.12) and in glibc 2.36.
 const MACROS: &str = "INFINITY NAN HUGE_VAL HUGE_VALF HUGE_VALL FP_INFINITE FP_NAN FP_NORMAL \
     FP_SUBNORMAL FP_ZERO FP_FAST_FMA FP_FAST_FMAF FP_FAST_FMAL FP_ILOGB0 FP_ILOGBNAN MAXFLOAT \
     MATH_ERRNO MATH_ERREXCEPT math_errhandling M_E M_LOG2E M_LOG10E M_LN2 M_LN10 M_PI M_PI_2 \
@@ -105,7 +106,8 @@ const MACROS: &str = "INFINITY NAN HUGE_VAL HUGE_VALF HUGE_VALL FP_INFINITE FP_N
     isgreaterequal isinf isless islessequal islessgreater isnan isnormal isunordered signbit \
     issignaling issubnormal iszero signgam";
 
-/// Functions of doubles in `math.h` of C23 (§7.12) and of glibc 2.36, and of integers in `stdlib.h`.
+/// Functions of doubles in `math.h` of C23 (§7.12) and of glibc 2.36, and of integers in
+/// `stdlib.h`.
 const FUNCTIONS: &str = "acos acosh asin asinh atan atan2 atanh cbrt ceil copysign cos cosh drem \
     erf erfc exp exp10 exp2 expm1 fabs fdim finite floor fma fmax fmin fmod frexp gamma hypot ilogb \
     j0 j1 jn ldexp lgamma lgamma_r llrint llround log log10 log1p log2 logb lrint lround modf nan \

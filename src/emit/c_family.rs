@@ -1,4 +1,4 @@
-//! What languages that look like C have in common: a language is what differs from it.
+//! The syntax that C-like languages share; each language overrides what differs.
 
 use super::syntax::{
     Readable, Signature, Spelling, Syntax, atom, decimal, negation, product, select, sum,
@@ -32,7 +32,7 @@ pub(super) const SYNTAX: Syntax = Syntax {
     },
 };
 
-/// The operations as most shading languages write them.
+/// Returns an operation's spelling in most shading languages.
 pub(super) fn spelling(op: Op) -> Spelling {
     match op {
         Op::Add => sum("{a+} + {b*}"),
@@ -70,7 +70,7 @@ pub(super) fn spelling(op: Op) -> Spelling {
     }
 }
 
-/// A function that returns a float, a vector, or a structure.
+/// Opens a function that returns a float, a vector, or a structure.
 pub(super) fn open(syntax: &Syntax, signature: &Signature, lines: &mut Vec<String>) {
     let Signature { outputs, structure, .. } = signature;
     let returned = syntax.types.get(outputs.len() - 1).copied().unwrap_or(structure);
@@ -82,7 +82,7 @@ pub(super) fn open(syntax: &Syntax, signature: &Signature, lines: &mut Vec<Strin
     lines.push(head(syntax, signature, returned));
 }
 
-/// The outputs as members of a structure.
+/// Declares the outputs as members of a structure.
 pub(super) fn members(syntax: &Syntax, outputs: &[String]) -> Vec<String> {
     outputs.iter().map(|name| format!("    {} {name};", syntax.types[0])).collect()
 }

@@ -1,4 +1,4 @@
-//! GLSL: what `#version 300 es` (WebGL2) and desktop versions have in common.
+//! GLSL: the common part of `#version 300 es` (WebGL2) and desktop versions.
 
 use super::c_family;
 use super::syntax::{
@@ -78,7 +78,7 @@ fn reserved(name: &str) -> bool {
         || is_matrix_or_vector(name)
 }
 
-/// `vec2`, `ivec4`, `hvec3`, `mat3`, `dmat4x2`, and so on.
+/// Returns true for `vec2`, `ivec4`, `hvec3`, `mat3`, `dmat4x2`, and so on.
 fn is_matrix_or_vector(name: &str) -> bool {
     let unprefixed = name.strip_prefix(['i', 'u', 'b', 'd', 'h', 'f']).unwrap_or(name);
     let size = unprefixed.strip_prefix("vec").or_else(|| unprefixed.strip_prefix("mat"));
@@ -87,7 +87,7 @@ fn is_matrix_or_vector(name: &str) -> bool {
     })
 }
 
-/// `sampler2D`, `usampler3D`, `imageCubeArray`, `textureBuffer`, and so on.
+/// Returns true for `sampler2D`, `usampler3D`, `imageCubeArray`, `textureBuffer`, and so on.
 fn is_opaque_type(name: &str) -> bool {
     // `image2D` begins with a letter that is a prefix elsewhere.
     let unprefixed = name.strip_prefix(['i', 'u']).unwrap_or(name);
@@ -101,8 +101,9 @@ fn is_opaque_type(name: &str) -> bool {
     })
 }
 
-/// Keywords and reserved words of GLSL ES 3.00.6 and 3.20.6, and of GLSL 4.60.8 with `GL_KHR_vulkan_glsl`:
-/// §3.6 of the former (§3.8 of ES 3.00), but for those that are told by their form.
+/// Keywords and reserved words of GLSL ES 3.00.6 and 3.20.6, and of GLSL 4.60.8 with
+/// `GL_KHR_vulkan_glsl`: §3.6 of the former (§3.8 of ES 3.00), without those that are told by their
+/// form.
 const KEYWORDS: &str = "active asm atomic_uint attribute bool break buffer case cast centroid \
     class coherent common const continue default discard do double else enum extern external false \
     filter fixed flat float for fvec2 fvec3 fvec4 goto half highp if in inline inout input int \
@@ -111,7 +112,8 @@ const KEYWORDS: &str = "active asm atomic_uint attribute bool break buffer case 
     row_major sample shared short sizeof smooth static struct subroutine superp switch template \
     this true typedef uint uniform union unsigned using varying void volatile while writeonly";
 
-/// §8 of GLSL 4.60.8 and of ES 3.20.6, but for those that begin as a type does (`textureLod`, `imageLoad`).
+/// Builtin functions: §8 of GLSL 4.60.8 and of ES 3.20.6, without those that begin as a type does
+/// (`textureLod`, `imageLoad`).
 const FUNCTIONS: &str = "abs acos acosh all any asin asinh atan atanh barrier bitCount \
     bitfieldExtract bitfieldInsert bitfieldReverse ceil clamp cos cosh cross dFdx dFdxCoarse \
     dFdxFine dFdy dFdyCoarse dFdyFine degrees determinant distance dot equal exp exp2 faceforward \

@@ -47,7 +47,8 @@ fn spelling(op: Op) -> Spelling {
     }
 }
 
-/// Some keywords may be written in any case (`Texture2D`, `TECHNIQUE`), so none is told by it.
+/// Returns true for reserved names in any case: some keywords may be written in any (`Texture2D`,
+/// `TECHNIQUE`).
 pub(super) fn reserved(name: &str) -> bool {
     // `_Atomic` and `__attribute` are DXC's, as they are clang's.
     let of_the_compiler = name.starts_with("__")
@@ -59,7 +60,7 @@ pub(super) fn reserved(name: &str) -> bool {
         || is_numeric_type(&name)
 }
 
-/// `float`, `float3`, `float3x2`, and so on.
+/// Returns true for `float`, `float3`, `float3x2`, and so on.
 fn is_numeric_type(name: &str) -> bool {
     let scalar = name.trim_end_matches(|c: char| ('1'..='4').contains(&c) || c == 'x');
     // The digits of `int16_t` are part of its name, those of `min16float4` only the last.
@@ -70,8 +71,9 @@ const SCALARS: &str = "bool int uint dword float half double min16float min10flo
     min12int min16uint float16_t float32_t float64_t int16_t int32_t int64_t uint16_t uint32_t \
     uint64_t";
 
-/// In lower case. Keywords and reserved words of FXC (Microsoft's reference, "Keywords" and "Reserved
-/// Words" in the appendix, as of 2021), of DXC 1.8 (`TokenKinds.def` and `HlslTypes.cpp`: C++ and HLSL).
+/// Keywords, in lower case: those and the reserved words of FXC (Microsoft's reference, "Keywords"
+/// and "Reserved Words" in the appendix, as of 2021), and of DXC 1.8 (`TokenKinds.def` and
+/// `HlslTypes.cpp`: C++ and HLSL).
 const KEYWORDS: &str = "appendstructuredbuffer asm asm_fragment auto blendstate break buffer \
     byteaddressbuffer case catch cbuffer centroid char class column_major compile \
     compile_fragment compileshader computeshader const const_cast constantbuffer \
@@ -91,7 +93,7 @@ const KEYWORDS: &str = "appendstructuredbuffer asm asm_fragment auto blendstate 
     triangle triangleadj trianglestream true try typedef typeid typename uniform union unorm unroll \
     unsigned using vector vertexfragment vertexshader vertices virtual void volatile wchar_t while";
 
-/// In lower case. The intrinsics of shader model 5.1 in the same reference.
+/// Intrinsics of shader model 5.1, in lower case, from the same reference.
 const FUNCTIONS: &str = "abort abs acos all and any asdouble asfloat asin asint asuint atan atan2 \
     ceil clamp clip cos cosh countbits cross d3dcolortoubyte4 ddx ddx_coarse ddx_fine ddy \
     ddy_coarse ddy_fine degrees determinant distance dot dst errorf exp exp2 f16tof32 f32tof16 \

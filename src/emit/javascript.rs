@@ -1,5 +1,5 @@
 //! JavaScript for a page: f32 arithmetic, each result rounded by `Math.fround`. A multiply-add is
-//! rounded to f64 before, so it can differ from a fused one in the last place.
+//! first rounded to f64, so it can differ from a fused one in the last place.
 
 use super::c_family;
 use super::syntax::{Signature, Spelling, Syntax, atom, is_word, negation};
@@ -9,7 +9,7 @@ pub(super) const SYNTAX: Syntax = Syntax {
     spelling,
     width: 200,
     reserved: |name| is_word(WORDS, name),
-    // The f64 that the f32 is: what JavaScript makes of the shorter one is another number.
+    // The f64 with the f32's value: JavaScript reads the shorter decimal as another number.
     literal: |value| format!("{:?}", f64::from(value)),
     local: |_, name, value| format!("const {name} = {value};"),
     non_finite: |name, _, bits| vec![format!("const {name} = {};", non_finite(bits))],

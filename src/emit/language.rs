@@ -1,17 +1,17 @@
-//! The list of languages, of which everything else that lists them is made.
+//! The list of languages; all other lists are made from it.
 
 use super::syntax::Syntax;
 use super::{c, glsl, hlsl, latex, msl, python, rust, slang, wgsl};
 use crate::suggest::did_you_mean;
 use std::fmt;
 
-/// What is known of a language beside its syntax.
+/// The facts of a language beside its syntax.
 struct Entry {
     name: &'static str,
     aliases: &'static [&'static str],
     extension: &'static str,
     syntax: &'static Syntax,
-    /// The syntax of its halves: of a shading language, which is read back.
+    /// The syntax of halves; only shading languages, which are read back, have it.
     half: Option<&'static Syntax>,
 }
 
@@ -35,8 +35,8 @@ macro_rules! languages {
             pub const ALL: &'static [Language] =
                 &[$(Language::$shading,)* $(Language::$other,)*];
 
-            /// The shading languages: those that have halves and that [`read_back`](super::read_back)
-            /// understands.
+            /// The shading languages: they have halves, and [`read_back`](super::read_back)
+            /// understands them.
             pub const SHADING: &'static [Language] = &[$(Language::$shading,)*];
 
             const fn entry(self) -> Entry {
@@ -67,39 +67,40 @@ languages! {
         Hlsl: hlsl, "hlsl", ["directx", "dx", "fx"], "hlsl";
         /// WebGPU.
         Wgsl: wgsl, "wgsl", ["webgpu", "wgpu"], "wgsl";
-        /// OpenGL, Vulkan, WebGL2: what `#version 300 es` and desktop GLSL have in common.
+        /// OpenGL, Vulkan, WebGL2: the common part of `#version 300 es` and desktop GLSL.
         Glsl: glsl, "glsl", ["opengl", "webgl", "webgl2", "essl", "gl"], "glsl";
         /// Metal, with `using namespace metal`.
         Msl: msl, "msl", ["metal"], "metal";
-        /// For `slangc`, which makes code for most GPUs of it.
+        /// For `slangc`, which compiles it for most GPUs.
         Slang: slang, "slang", [], "slang";
     }
     others {
-        /// C99, and C++.
+        /// C99 and C++.
         C: c, "c", ["c99", "c++", "cpp"], "c";
-        /// Of `f32`.
+        /// Functions of `f32`.
         Rust: rust, "rust", ["rs"], "rs";
-        /// Of numpy arrays.
+        /// Functions of numpy arrays.
         Python: python, "python", ["py", "numpy"], "py";
-        /// `align*`, for a paper.
+        /// An `align*`, for a paper.
         Latex: latex, "latex", ["tex"], "tex";
     }
 }
 
-/// A name that is no language's.
+/// A name that no language has.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[error("no language is called `{given}`{hint} (there are {known})")]
 pub struct UnknownLanguage {
+    /// The name that was given.
     pub given: String,
     hint: String,
     known: String,
 }
 
 impl Language {
-    /// The language of this name or alias, in upper or lower case.
+    /// Returns the language of a name or alias, in upper or lower case.
     ///
     /// # Errors
-    /// [`UnknownLanguage`] says which names there are.
+    /// [`UnknownLanguage`] lists the names there are.
     pub fn from_name(name: &str) -> Result<Language, UnknownLanguage> {
         let lower = name.to_ascii_lowercase();
         let found = Language::ALL.iter().find(|language| {
@@ -115,7 +116,8 @@ impl Language {
         })
     }
 
-    /// `hlsl, wgsl and glsl`: what is said of each language, before the last one with the `conjunction`.
+    /// Lists what `text` says of each language, as in `hlsl, wgsl and glsl`, with the `conjunction`
+    /// before the last one.
     pub fn list(
         languages: &[Language],
         conjunction: &str,
@@ -129,17 +131,17 @@ impl Language {
         }
     }
 
-    /// Their names, as [`Language::list`] has them.
+    /// Lists names as [`Language::list`] does.
     pub fn names(languages: &[Language], conjunction: &str) -> String {
         Language::list(languages, conjunction, |language| language.name().to_owned())
     }
 
-    /// The name on the command line.
+    /// Returns the name on the command line.
     pub fn name(self) -> &'static str {
         self.entry().name
     }
 
-    /// What the name of a file in this language ends in, without the dot.
+    /// Returns the file extension, without the dot.
     pub fn extension(self) -> &'static str {
         self.entry().extension
     }
@@ -148,7 +150,7 @@ impl Language {
         self.entry().syntax
     }
 
-    /// The syntax of its halves, if it has any.
+    /// Returns the syntax of halves, if there is one.
     pub(super) fn half_syntax(self) -> Option<&'static Syntax> {
         self.entry().half
     }

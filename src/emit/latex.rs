@@ -1,4 +1,4 @@
-//! LaTeX: an `align*` of amsmath, an equation a statement.
+//! LaTeX: an amsmath `align*` with an equation for each statement.
 
 use super::c_family;
 use super::syntax::{Signature, Spelling, Syntax, atom, negation, power, product, select, sum};
@@ -69,7 +69,7 @@ fn close(_: &Syntax, _: &Signature, lines: &mut Vec<String>) {
     lines.push(r"\end{align*}".to_owned());
 }
 
-/// A space between two numbers would join them.
+/// Typesets a number; a space between two numbers would join them.
 fn typeset(value: &str) -> String {
     let mut factors = value.split(r"\,");
     let mut text = factors.next().unwrap_or("").to_owned();
@@ -95,7 +95,7 @@ fn non_finite(bits: u32) -> &'static str {
     }
 }
 
-/// What [`Name`] tells apart; words of several letters upright.
+/// Typesets a name by the parts that [`Name`] finds; words of several letters are upright.
 fn written(name: &str) -> String {
     let upright = |word: &str| format!(r"\mathrm{{{}}}", word.replace('_', r"\_"));
     let symbol = |word: &str| match greek(word) {

@@ -1,4 +1,4 @@
-//! MathML Core, which browsers typeset by themselves: a table of equations, one a statement.
+//! MathML Core, which browsers typeset by themselves: a table with an equation for each statement.
 
 use super::c_family;
 use super::syntax::{Signature, Spelling, Syntax, atom, negation, power, product, select, sum};
@@ -26,7 +26,7 @@ pub(super) const SYNTAX: Syntax = Syntax {
     ..c_family::SYNTAX
 };
 
-/// Between two factors.
+/// The space between two factors.
 const TIMES: &str = "<mspace width=\"0.17em\"/>";
 
 fn spelling(op: Op) -> Spelling {
@@ -75,7 +75,7 @@ fn row(name: &str, value: &str) -> String {
     format!("<mtr><mtd>{name}</mtd><mtd><mo>=</mo>{}</mtd></mtr>", typeset(value))
 }
 
-/// A space between two numbers would join them.
+/// Typesets a number; a space between two numbers would join them.
 fn typeset(value: &str) -> String {
     value.replace(&format!("{TIMES}<mn>"), "<mo>·</mo><mn>")
 }
@@ -100,7 +100,7 @@ fn non_finite(bits: u32) -> &'static str {
     }
 }
 
-/// As in LaTeX; other words are written as they are.
+/// Typesets a name as in LaTeX; other words are written as they are.
 fn written(name: &str) -> String {
     let vector = |name| format!("<mi class=\"vector\" mathvariant=\"normal\">{name}</mi>");
     let symbol = |word| greek(word).map_or(word, |(_, letter)| letter);

@@ -60,18 +60,20 @@ use body::Syntaxes;
 use naming::Naming;
 use syntax::Syntax;
 
-/// What is to be written.
+/// A function to be written.
 #[derive(Clone, Copy, Debug)]
 pub struct Snippet<'a> {
+    /// What the function computes.
     pub program: &'a Program,
+    /// Names for each input and output of the program.
     pub names: &'a Names,
-    /// What the function is called; that of a single output is `function_output`.
+    /// The function's name; with a single output it becomes `function_output`.
     pub function: &'a str,
-    /// Lines of the comment above it.
+    /// Lines of the comment above the function.
     pub header: &'a [String],
 }
 
-/// The snippet as a function of the language, ready to paste. A name that means something in
+/// Writes the snippet as a function of the language, ready to paste. A name that means something in
 /// the language is written differently, and a comment says so.
 ///
 /// # Panics
@@ -80,10 +82,10 @@ pub fn emit(language: Language, snippet: &Snippet) -> String {
     written(Syntaxes::one(language.syntax()), snippet)
 }
 
-/// The same function in half precision, arguments, constants and outputs too, but for the
-/// instructions of the program that are to stay in single precision (those of
-/// [`stability::must_stay_single`](crate::stability::must_stay_single), or none); of a language that has
-/// no halves, nothing. What is emitted in WGSL and GLSL begins with the line that allows halves.
+/// Writes the same function in half precision, including arguments, constants and outputs, except
+/// for the instructions in `stay_single` (those of
+/// [`stability::must_stay_single`](crate::stability::must_stay_single), or none). Returns none for
+/// a language without halves. In WGSL and GLSL the text begins with the line that allows halves.
 ///
 /// # Panics
 /// As [`emit`] does.
@@ -93,8 +95,8 @@ pub fn emit_half(language: Language, snippet: &Snippet, stay_single: &[usize]) -
     Some(written(Syntaxes { function: syntax, single, stay_single }, snippet))
 }
 
-/// The program as a function of JavaScript from its inputs to an array of its outputs, for pages; it
-/// calls `f32`, which is to be `Math.fround`. No name stands in it that comes from elsewhere.
+/// Writes the program as a JavaScript function from its inputs to an array of its outputs, for
+/// pages. It calls `f32`, which must be `Math.fround`. It contains no name from outside.
 pub fn javascript(program: &Program) -> String {
     let numbered = |letter: char, count| (0..count).map(move |i| format!("{letter}{i}"));
     let names = Names::new(numbered('x', program.inputs), numbered('y', program.outputs.len()));
@@ -102,7 +104,7 @@ pub fn javascript(program: &Program) -> String {
     written(Syntaxes::one(&javascript::SYNTAX), &snippet)
 }
 
-/// The snippet as equations that browsers typeset, without its header.
+/// Writes the snippet as equations that browsers typeset, without its header.
 ///
 /// # Panics
 /// As [`emit`] does.
@@ -119,7 +121,7 @@ fn written(syntaxes: Syntaxes, snippet: &Snippet) -> String {
     let mut naming = Naming::new(syntax.reserved, &function, names);
     let signature = naming.signature();
     let mut lines: Vec<String> = Vec::new();
-    // What has no comments would show them, or take them for its own.
+    // A language without comments would show them, or read them as code.
     if !syntax.comment.is_empty() {
         lines.extend(header::commented(syntax.comment, header));
         lines.extend(header::commented(syntax.comment, &naming.renamed()));
@@ -131,7 +133,7 @@ fn written(syntaxes: Syntaxes, snippet: &Snippet) -> String {
     lines.join("\n") + "\n"
 }
 
-/// `dfg_bias` for the single output `bias` of `dfg`, unless the name says it already.
+/// Returns `dfg_bias` for the single output `bias` of `dfg`, unless the name says it already.
 fn function_name(function: &str, names: &Names) -> String {
     match names.outputs.as_slice() {
         [output] if function != output && !function.ends_with(&format!("_{output}")) => {

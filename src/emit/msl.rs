@@ -44,19 +44,19 @@ fn reserved(name: &str) -> bool {
         || is_macro(name)
 }
 
-/// `float`, `half3`, `packed_float3`, `float3x2`, and so on.
+/// Returns true for `float`, `half3`, `packed_float3`, `float3x2`, and so on.
 fn is_type(name: &str) -> bool {
     let unpacked = name.strip_prefix("packed_").unwrap_or(name);
     let scalar = unpacked.trim_end_matches(|c: char| ('1'..='4').contains(&c) || c == 'x');
     is_word(SCALARS, scalar) || is_word(SCALARS, name)
 }
 
-/// `M_PI_F`, `FLT_MAX`, `INT_MIN`, and so on (specification, §6.5 and its limits).
+/// Returns true for `M_PI_F`, `FLT_MAX`, `INT_MIN`, and so on (specification, §6.5 and its limits).
 fn is_macro(name: &str) -> bool {
     let parts = ["M_", "FLT_", "DBL_", "HALF_", "FP_", "HUGE_", "MAX"];
     let limits = ["_MAX", "_MIN", "_BIT"];
     let capitals = !name.contains(|c: char| c.is_ascii_lowercase());
-    // Of those that end in a number there are few, so that others can be given.
+    // Few end in a number, so that replacement names can.
     let numbered = name.trim_end_matches(|c: char| c.is_ascii_digit()).ends_with('_');
     if numbered {
         return is_word("M_PI_2 M_PI_4 M_SQRT1_2", name);
@@ -69,8 +69,8 @@ fn is_macro(name: &str) -> bool {
 const SCALARS: &str = "bool char short int long uchar ushort uint ulong half float double int8_t \
     int16_t int32_t int64_t uint8_t uint16_t uint32_t uint64_t size_t ptrdiff_t vec matrix bfloat";
 
-/// Those of C++14 (N4431, §2.11), and of the Metal Shading Language Specification 3.2 (§2.1 types, §4 address
-/// spaces, §5 attributes and functions).
+/// Keywords of C++14 (N4431, §2.11), and of the Metal Shading Language Specification 3.2 (§2.1
+/// types, §4 address spaces, §5 attributes and functions).
 const KEYWORDS: &str = "alignas alignof and and_eq asm atomic_bool atomic_int atomic_uint auto \
     bitand bitor break case catch char16_t char32_t class compl const const_cast constexpr \
     continue decltype default delete do dynamic_cast else enum explicit export extern false final \
@@ -86,7 +86,7 @@ const KEYWORDS: &str = "alignas alignof and and_eq asm atomic_bool atomic_int at
     depthcube_array INFINITY NAN DefaultConstructible assert atomic atomic_float atomic_ulong \
     complex imaginary llong object_data quad restrict ullong";
 
-/// §6 of the Metal Shading Language Specification 3.2.
+/// Functions: §6 of the Metal Shading Language Specification 3.2.
 const FUNCTIONS: &str = "abs absdiff acos acosh addsat all any as_type asin asinh atan atan2 atanh \
     ceil clamp clz copysign cos cosh cospi cross ctz determinant dfdx dfdy discard_fragment \
     distance distance_squared divide dot exp exp10 exp2 extract_bits faceforward fabs fast fdim \

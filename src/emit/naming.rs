@@ -1,4 +1,4 @@
-//! Names that a language allows and that do not collide.
+//! Names that a language allows, without collisions.
 
 use super::read::name_line;
 use super::syntax::Signature;
@@ -11,7 +11,7 @@ pub(super) struct Naming<'a> {
     taken: HashSet<String>,
     function: &'a str,
     names: &'a Names,
-    /// The function's name, the inputs', the outputs'.
+    /// The names of the function, inputs and outputs.
     written: Vec<String>,
     temporaries: usize,
 }
@@ -48,7 +48,7 @@ impl<'a> Naming<'a> {
         Signature { function, inputs, outputs, structure, result }
     }
 
-    /// A line for each name that could not be kept.
+    /// Returns a line for each name that could not be kept.
     pub fn renamed(&self) -> Vec<String> {
         let names = self.wanted().into_iter().zip(&self.written);
         names
@@ -57,7 +57,7 @@ impl<'a> Naming<'a> {
             .collect()
     }
 
-    /// The next of `t0`, `t1`, … that is free.
+    /// Returns the next free one of `t0`, `t1`, ….
     pub fn temporary(&mut self) -> String {
         loop {
             let name = format!("t{}", self.temporaries);
@@ -68,19 +68,19 @@ impl<'a> Naming<'a> {
         }
     }
 
-    /// `name`, or one like it that is free.
+    /// Returns `name`, or one like it that is free.
     pub fn fresh(&mut self, name: &str) -> String {
         if self.keep(name) { name.to_owned() } else { self.rename(name) }
     }
 
-    /// Takes `name` as it is, if that is allowed.
+    /// Takes `name` as it is, and returns true, if that is allowed.
     fn keep(&mut self, name: &str) -> bool {
         is_identifier(name) && !(self.reserved)(name) && self.taken.insert(name.to_owned())
     }
 
     fn rename(&mut self, name: &str) -> String {
         let mut base = plain(name);
-        // All that begins like that may be reserved; nothing that begins with `x_` is.
+        // All names that begin with `x` may be reserved; none that begins with `x_` is.
         if (self.reserved)(&format!("{base}_2")) {
             base = format!("x_{base}");
         }
@@ -96,8 +96,8 @@ fn is_identifier(name: &str) -> bool {
         && name.bytes().all(|b| b.is_ascii_alphanumeric() || b == b'_')
 }
 
-/// An identifier like `name`, of a form that every language allows: beginning with a letter but
-/// not with `gl_`, without a double underscore.
+/// Returns an identifier like `name` of a form that every language allows: it begins with a letter
+/// but not with `gl_`, and has no double underscore.
 fn plain(name: &str) -> String {
     let words: Vec<&str> =
         name.split(|c: char| !c.is_ascii_alphanumeric()).filter(|word| !word.is_empty()).collect();

@@ -1,4 +1,4 @@
-//! Python, of numpy arrays of whatever shape, or of numbers.
+//! Python, on numpy arrays of any shape, or on numbers.
 
 use super::c_family;
 use super::syntax::{Signature, Spelling, Syntax, atom, is_word, negation, product, sum};
@@ -44,7 +44,7 @@ fn spelling(op: Op) -> Spelling {
         Op::Atan2 => atom("np.arctan2({a}, {b})"),
         Op::Tanh => atom("np.tanh({a})"),
         Op::Lerp => sum("{a+} + {c*}*({b+} - {a*})"),
-        // Of two plain numbers `where` would make doubles.
+        // `where` would make doubles of two plain numbers.
         Op::Step => atom("np.float32({b+} >= {a+})"),
         Op::Select => atom("np.float32(np.where({a+} < {b+}, {c}, {d}))"),
         Op::Floor => atom("np.floor({a})"),

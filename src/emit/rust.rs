@@ -1,4 +1,4 @@
-//! Rust, of `f32`.
+//! Rust, on `f32`.
 
 use super::c_family;
 use super::syntax::{Signature, Spelling, Syntax, atom, is_word, negation, product, select, sum};
@@ -15,7 +15,8 @@ pub(super) const SYNTAX: Syntax = Syntax {
     ..c_family::SYNTAX
 };
 
-/// Functions, not methods: `2.0.exp2()` has no type, and `-x.abs()` is not what it seems.
+/// Returns spellings by functions, not methods: `2.0.exp2()` has no type, and `-x.abs()` is not
+/// what it seems.
 fn spelling(op: Op) -> Spelling {
     match op {
         Op::Add => sum("{a+} + {b*}"),
@@ -85,7 +86,8 @@ fn reserved(name: &str) -> bool {
     name == "_" || is_word(WORDS, name)
 }
 
-/// Keywords and the words reserved for later (reference of the 2024 edition, §2.2), and what a pattern would match instead of naming.
+/// Keywords and the words reserved for later (reference of the 2024 edition, §2.2), and names that
+/// a pattern would match rather than bind.
 const WORDS: &str = "Self abstract as async await become box break const continue crate do dyn \
     else enum extern false final fn for gen if impl in let loop macro match mod move mut override \
     priv pub ref return self static struct super trait true try type typeof union unsafe unsized \

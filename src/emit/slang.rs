@@ -1,19 +1,19 @@
-//! Slang: HLSL, but for its words.
+//! Slang: HLSL with other reserved words.
 
 use super::hlsl;
 use super::syntax::{Syntax, is_word};
 
 pub(super) const SYNTAX: Syntax = Syntax { reserved, ..hlsl::SYNTAX };
 
-/// Half precision; all its targets but those without halves take it as it is.
+/// Half precision; all its targets that have halves take it as it is.
 pub(super) const HALF: Syntax = Syntax { reserved, ..hlsl::HALF };
 
 fn reserved(name: &str) -> bool {
     hlsl::reserved(name) || is_word(WORDS, name)
 }
 
-/// Slang's keywords, and names that its core modules declare for all. The compiler (2026.12) refuses only few of
-/// them as names, but a local that hides one means something else: all are avoided.
+/// Slang's keywords, and names that its core modules declare. The compiler (2026.12) refuses only
+/// few of them as names, but a local that hides one means something else: all are avoided.
 const WORDS: &str = "This alignof as associatedtype bwd_diff constref copysign countof defer \
     detach dynamic_uniform each expand exp10 extension fwd_diff func functype get implementing \
     import init internal is let matrix_type module no_diff none nullptr optional \

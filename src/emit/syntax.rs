@@ -1,4 +1,4 @@
-//! What tells one language from another, as data.
+//! The differences between languages, as data.
 
 use crate::op::Op;
 use crate::program::format_constant;
@@ -7,32 +7,32 @@ pub(super) use crate::program::spelling::{
 };
 use half::f16;
 
-/// A language.
+/// The syntax of a language.
 pub(super) struct Syntax {
-    /// What begins a comment that ends with its line.
+    /// The beginning of a comment that ends with its line.
     pub comment: &'static str,
-    /// The type of a float, and those of vectors as far as there are any.
+    /// The types of a float and of vectors, as far as there are any.
     pub types: &'static [&'static str],
     pub spelling: fn(Op) -> Spelling,
-    /// How `{a}·{a}·…` is written where it has a notation of its own, `{n}` being how many.
+    /// The notation of `{a}·{a}·…`, if there is one, with `{n}` factors.
     pub power: Option<&'static str>,
     pub parentheses: [&'static str; 2],
-    /// What stands between the terms of a sum, and of a difference.
+    /// The signs of a sum and of a difference.
     pub signs: [&'static str; 2],
-    /// No expression is longer in bytes, unless its names are.
+    /// The longest expression in bytes, unless its names are longer.
     pub width: usize,
-    /// Whether a name is a keyword, a type, a builtin function, or of a form that may not be
-    /// declared. A plain identifier that ends in `_` or `_2` never is, so that each name can be
-    /// replaced by one like it.
+    /// Returns true for a keyword, a type, a builtin function, or a name of a form that may not be
+    /// declared. A plain identifier that ends in `_` or `_2` is never reserved, so each name has a
+    /// replacement.
     pub reserved: fn(&str) -> bool,
-    /// An allowed name as it is written.
+    /// Writes an allowed name.
     pub written: fn(&str) -> String,
-    /// Whether numbers are halves: constants are rounded, and folded, as such.
+    /// True if numbers are halves: constants are rounded, and folded, as such.
     pub half: bool,
     pub literal: fn(f32) -> String,
-    /// The declaration of a local that is never changed.
+    /// Declares a local that is never changed.
     pub local: fn(&Syntax, name: &str, value: &str) -> String,
-    /// The declaration of a local that is infinite or NaN, and perhaps of one for its bits.
+    /// Declares a local that is infinite or NaN, and perhaps one for its bits.
     pub non_finite: fn(name: &str, bits_name: &str, bits: u32) -> Vec<String>,
     /// Adds the lines above the function's body.
     pub open: fn(&Syntax, &Signature, &mut Vec<String>),
@@ -43,19 +43,19 @@ pub(super) struct Syntax {
     pub readable: Readable,
 }
 
-/// What a function that is read back may have, though none is emitted with it.
+/// What a function that is read back may contain although none is emitted with it.
 pub(super) struct Readable {
-    /// The words before the type of a local that change no value.
+    /// Words before the type of a local that do not change its value.
     pub of_locals: &'static [&'static str],
     pub of_functions: &'static [&'static str],
     pub of_parameters: &'static [&'static str],
-    /// Whether it may say where a value comes from or goes to: `: TEXCOORD0`.
+    /// True if it may say where a value comes from or goes to: `: TEXCOORD0`.
     pub semantics: bool,
-    /// Whether `sign` is an integer.
+    /// True if `sign` is an integer.
     pub integer_sign: bool,
 }
 
-/// The names of a function's parts, as the language allows them.
+/// The names in a function, as the language allows them.
 pub(super) struct Signature {
     pub function: String,
     pub inputs: Vec<String>,
@@ -65,15 +65,16 @@ pub(super) struct Signature {
     pub result: String,
 }
 
-/// The shortest decimal that reads back as `value` and that no compiler takes for an integer.
+/// Returns the shortest decimal that reads back as `value` and that no compiler takes for an
+/// integer.
 pub(super) fn decimal(value: f32) -> String {
-    // The shortest decimal of the largest number, …35e38, lies above it: out of range where it
-    // is read in higher precision first, as in WGSL.
+    // The shortest decimal of the largest number, …35e38, lies above it: out of range where it is
+    // read in higher precision first, as in WGSL.
     let text = format_constant(value).replace("3.4028235e38", "3.4028234e38");
     if text.contains(['.', 'e']) { text } else { text + ".0" }
 }
 
-/// The shortest decimal that reads back as `value`, which is a half.
+/// Returns the shortest decimal that reads back as `value`, which is a half.
 pub(super) fn half_decimal(value: f32) -> String {
     let half = f16::from_f32(value);
     let digits = (0..8).map(|digits| format!("{value:.digits$e}").parse::<f32>());
@@ -81,7 +82,7 @@ pub(super) fn half_decimal(value: f32) -> String {
     decimal(same.next().unwrap_or(value))
 }
 
-/// A short decimal that reads back as `value`, which is a half, whether it is rounded or
+/// Returns a short decimal that reads back as `value`, which is a half, whether it is rounded or
 /// truncated.
 pub(super) fn half_decimal_outward(value: f32) -> String {
     let value = f64::from(value);
@@ -97,7 +98,7 @@ pub(super) fn half_decimal_outward(value: f32) -> String {
     decimal(same.next().unwrap_or(value) as f32)
 }
 
-/// Whether `name` is one of the words of `list`.
+/// Returns true if `name` is one of the words of `list`.
 pub(super) fn is_word(list: &str, name: &str) -> bool {
     list.split_ascii_whitespace().any(|word| word == name)
 }

@@ -1,10 +1,10 @@
-//! Names as a formula that is typeset has them.
+//! Names in typeset formulas.
 
-/// What a name says: `n_dot_v` is a dot product, a Greek letter or a single one a symbol, and what follows such a
-/// letter's underscore and the digits at a name's end are an index.
+/// The parts of a name: `n_dot_v` is a dot product; a Greek letter or a single one is a symbol;
+/// what follows such a letter's underscore, and digits at a name's end, are an index.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Name<'a> {
-    /// Of the vectors of these names.
+    /// A dot product of the vectors of these names.
     Dot([&'a str; 2]),
     Word(&'a str),
     Indexed {
@@ -36,7 +36,7 @@ impl Name<'_> {
     }
 }
 
-/// The Greek letter of this name, and the name.
+/// Returns the Greek letter of this name, and its name in LaTeX.
 pub(super) fn greek(word: &str) -> Option<(&'static str, &'static str)> {
     GREEK.iter().copied().find(|(name, _)| *name == word)
 }

@@ -81,7 +81,7 @@ fn reserved(name: &str) -> bool {
         || is_word(FUNCTIONS, name)
 }
 
-/// The keywords and the words reserved for later: §15.2 and §15.3 of the W3C's draft of 2025-08-09.
+/// Keywords and words reserved for later: §15.2 and §15.3 of the W3C's draft of 2025-08-09.
 const KEYWORDS: &str = "alias break case const const_assert continue continuing default diagnostic \
     discard else enable false fn for if let loop override requires return struct switch true var \
     while main NULL Self abstract active alignas alignof as asm asm_fragment async attribute auto \
@@ -98,7 +98,8 @@ const KEYWORDS: &str = "alias break case const const_assert continue continuing 
     try type typedef typeid typename typeof union unless unorm unsafe unsized use using varying \
     virtual volatile wgsl where with writeonly yield";
 
-/// §6.9 (types and their generators) and §6.3.1 (enumerants) of the same draft, and those of extensions that compilers know.
+/// Types and their generators (§6.9) and enumerants (§6.3.1) of the same draft, and those of
+/// extensions that compilers know.
 const TYPE_NAMES: &str = "bool i32 u32 f32 f16 i64 u64 f64 array atomic ptr sampler \
     sampler_comparison vec2 vec3 vec4 vec2i vec3i vec4i vec2u vec3u vec4u vec2f vec3f vec4f vec2h \
     vec3h vec4h mat2x2 mat2x3 mat2x4 mat3x2 mat3x3 mat3x4 mat4x2 mat4x3 mat4x4 mat2x2f mat2x3f \
@@ -110,7 +111,7 @@ const TYPE_NAMES: &str = "bool i32 u32 f32 f16 i64 u64 f64 array atomic ptr samp
     texture_depth_cube_array binding_array acceleration_structure ray_query function private \
     workgroup uniform storage read write read_write";
 
-/// The builtin functions: §17 of the W3C draft of 2025-08-09.
+/// Builtin functions: §17 of the same draft.
 const FUNCTIONS: &str = "abs acos acosh all any arrayLength asin asinh atan atan2 atanh bitcast \
     ceil clamp cos cosh countLeadingZeros countOneBits countTrailingZeros cross degrees \
     determinant distance dot dot4I8Packed dot4U8Packed dpdx dpdxCoarse dpdxFine dpdy dpdyCoarse \

@@ -164,7 +164,7 @@ fn facts(run: &Run, dataset: Option<&Dataset>) -> Vec<(String, String)> {
     }
     fact("grammar, GPU", format!("{}, {}", run.grammar, run.gpu));
     fact("seed", run::seeds(run));
-    fact("error made small", run.goal.measure.to_string());
+    fact("minimised error", run.goal.measure.to_string());
     fact("search", format!("{} generations in {:.1} s", run.generations, run.seconds));
     let counts = [run.counts.considered, run.counts.seen, run.counts.fitted, run.counts.admitted];
     fact(

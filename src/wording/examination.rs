@@ -1,4 +1,4 @@
-//! What `lgp check` says of a formula, as text and as JSON.
+//! The findings of `lgp check` on a formula, as text and as JSON.
 
 use super::verdict::{number_text, share_text, status_text};
 use crate::program::{Arg, Names, Program, effective, print_expression};
@@ -9,7 +9,7 @@ use crate::stability::{
 use serde_json::{Value, json};
 use std::fmt::Write;
 
-/// The text, a paragraph for each question.
+/// Returns the examination as text, a paragraph for each question.
 pub fn text(examination: &Examination, names: &Names) -> String {
     let page = Page { examination, names };
     [page.claims(), page.extremes(), page.precision(), page.liberties(), page.smoothness()].concat()
@@ -220,12 +220,12 @@ impl Page<'_> {
     }
 }
 
-/// Where something is, to the digits that matter.
+/// Rounds an input to f32, the digits that matter.
 fn single(input: &[f64]) -> Vec<f32> {
     input.iter().map(|&x| x as f32).collect()
 }
 
-/// A bound on the error of halves in words: a worst case only where there can be no worse.
+/// Returns a bound on the error of halves in words; it is certain only if all inputs were tried.
 pub fn at_most(error: &str, tried: Tried) -> String {
     let Tried { points, exhaustive } = tried;
     match exhaustive {
@@ -251,7 +251,7 @@ fn cause(cause: Cause) -> &'static str {
     }
 }
 
-/// What an instruction computes; in the middle shortened where it is long.
+/// Returns an instruction's expression, shortened in the middle if it is long.
 pub fn expression(program: &Program, instruction: usize, names: &Names) -> String {
     const LONG: usize = 72;
     const DEEP: usize = 14;
@@ -270,7 +270,7 @@ pub fn expression(program: &Program, instruction: usize, names: &Names) -> Strin
     format!("`{}…{}`", &text[..LONG / 2], &text[text.len() - LONG / 2..])
 }
 
-/// The same as JSON; what is no finite number is null.
+/// Returns the examination as JSON; numbers that are not finite become null.
 pub fn json(examination: &Examination, names: &Names) -> Value {
     let page = Page { examination, names };
     let input = |input: &[f32]| -> Value {

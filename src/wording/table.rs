@@ -1,11 +1,11 @@
-//! A front as a table of text, published formulas on the same axes.
+//! A front as a table of text, with published formulas on the same axes.
 
 use crate::fit::Measure;
 use crate::search::{Front, FrontMember, ScoredIncumbent};
 use std::fmt::Write;
 
-/// The front by rising cost, each member's formula under its numbers, incumbents where their cost
-/// puts them. Errors are over all outputs; those by output follow where there are several.
+/// Returns the front by rising cost, each member's formula under its numbers, incumbents where
+/// their cost puts them. Errors are over all outputs; errors by output follow if there are several.
 pub fn front_table(front: &Front, incumbents: &[ScoredIncumbent], outputs: &[String]) -> String {
     let judged = front.members.iter().any(|member| member.verdict.is_judged());
     let mut text = heading(outputs, front.measure, judged);
@@ -27,20 +27,20 @@ pub fn front_table(front: &Front, incumbents: &[ScoredIncumbent], outputs: &[Str
     text
 }
 
-/// By what formulas are on the front or off it.
+/// Says by which error formulas are on the front.
 pub fn cut(measure: Measure) -> String {
     let title = axis_title(measure);
     match measure {
         Measure::Max => format!(
-            "On the front, and not dominated, is what nothing cheaper equals in {title} on the search split, where it was made small.\n"
+            "The front holds each formula that no cheaper one equals in {title} on the search split, where {title} was minimised.\n"
         ),
         _ => format!(
-            "On the front, and not dominated, is what nothing cheaper equals in {title} on the validation split, which no constant was fitted to; {title} was made small on the search split.\n"
+            "The front holds each formula that no cheaper one equals in {title} on the validation split, to which no constant was fitted; {title} was minimised on the search split.\n"
         ),
     }
 }
 
-/// Whether a measure is none of those that every table has.
+/// Returns true if the measure is none of those that every table has.
 fn is_own_column(measure: Measure) -> bool {
     !matches!(measure, Measure::Rmse | Measure::Max)
 }
@@ -59,7 +59,7 @@ fn heading(outputs: &[String], measure: Measure, judged: bool) -> String {
     text + if judged { "  verdict\n" } else { "\n" }
 }
 
-/// What is known of a member, in a few words: what is proved first.
+/// Describes a member's verdict in a few words, what is proved first.
 fn statuses(member: &FrontMember) -> String {
     let verdict = &member.verdict;
     if !verdict.is_judged() {
@@ -112,7 +112,7 @@ fn incumbent_row(known: &ScoredIncumbent, front: &Front) -> String {
     format!("   *  {}\n      {}: {standing}\n", numbers(&known.member, front.measure), known.name)
 }
 
-/// A measure as tables and plots write it.
+/// Returns a measure's name in tables and plots.
 pub fn title(measure: Measure) -> &'static str {
     match measure {
         Measure::Rmse => "RMSE",
@@ -123,7 +123,7 @@ pub fn title(measure: Measure) -> &'static str {
     }
 }
 
-/// The error that decides about a front in this measure.
+/// Returns the name of the error that decides about a front in this measure.
 fn deciding_title(measure: Measure) -> String {
     match measure {
         Measure::Max => title(measure).to_owned(),
@@ -131,7 +131,7 @@ fn deciding_title(measure: Measure) -> String {
     }
 }
 
-/// A measure beside a plot's axis.
+/// Returns a measure's name beside a plot's axis.
 pub fn axis_title(measure: Measure) -> &'static str {
     match measure {
         Measure::Max => "maximum error",
@@ -139,7 +139,7 @@ pub fn axis_title(measure: Measure) -> &'static str {
     }
 }
 
-/// The cheapest member that dominates an incumbent, and its place.
+/// Returns the cheapest member that dominates an incumbent, and its index.
 pub fn dominating<'a>(
     known: &ScoredIncumbent,
     front: &'a Front,
@@ -151,18 +151,18 @@ pub fn dominating<'a>(
         .find(|(_, member)| member.dominates(&known.member, front.measure))
 }
 
-/// Cycles with two decimals at most, as a mix of GPUs gives them.
+/// Formats cycles with two decimals at most, as a mix of GPUs has them.
 pub fn cycles_text(cycles: f64) -> String {
     let text = format!("{cycles:.2}");
     text.trim_end_matches('0').trim_end_matches('.').to_owned()
 }
 
-/// An error in eight columns.
+/// Formats an error in eight columns.
 fn error(value: f64) -> String {
     format!("{:>8}", error_text(value))
 }
 
-/// An error with five decimals, or where that would say little, two digits.
+/// Formats an error with five decimals, or two significant digits if that would say little.
 pub fn error_text(value: f64) -> String {
     match value {
         0.0 => "0".to_owned(),

@@ -3,7 +3,7 @@
 use crate::stability::{ClaimRecord, StatusRecord, Value, VerdictRecord};
 use std::collections::BTreeMap;
 
-/// A line for each topic, as a snippet's header has them.
+/// Returns a line for each topic, as in a snippet's header.
 pub fn verdict_lines(verdict: &VerdictRecord) -> Vec<String> {
     if !verdict.is_judged() {
         return vec!["finite on every sample of both splits".to_owned()];
@@ -12,7 +12,7 @@ pub fn verdict_lines(verdict: &VerdictRecord) -> Vec<String> {
     topics.map(|(topic, claim)| format!("{topic}: {}", claim_text(claim))).collect()
 }
 
-/// What became of a claim, in the interpreter's arithmetic and on GPUs where that differs.
+/// Describes a claim's status in the interpreter's arithmetic, and on GPUs where that differs.
 pub fn claim_text(claim: &ClaimRecord) -> String {
     let exact = match &claim.claim {
         Some(text) => format!("{text} {}", status_text(&claim.exact)),
@@ -26,7 +26,7 @@ pub fn claim_text(claim: &ClaimRecord) -> String {
     }
 }
 
-/// The status, and where and how far.
+/// Describes a status: where, and how far.
 pub fn status_text(status: &StatusRecord) -> String {
     match (&status.input, &status.value, status.volume) {
         (Some(input), Some(value), _) => {
@@ -39,12 +39,13 @@ pub fn status_text(status: &StatusRecord) -> String {
     }
 }
 
-/// A share as a percentage.
+/// Formats a share as a percentage.
 pub fn share_text(share: f64) -> String {
     let percent = share * 100.0;
     if percent >= 0.01 { format!("{percent:.2} %") } else { format!("{percent:.0e} %") }
 }
 
+/// Formats a number as [`number_text`] does; other values are text already.
 pub fn value_text(value: &Value) -> String {
     match value {
         Value::Number(number) => number_text((*number).into()),
@@ -52,7 +53,7 @@ pub fn value_text(value: &Value) -> String {
     }
 }
 
-/// Five digits.
+/// Formats a number with five significant digits.
 pub fn number_text(number: f64) -> String {
     match number.abs() {
         0.0 => "0".to_owned(),
@@ -68,7 +69,7 @@ pub fn number_text(number: f64) -> String {
     }
 }
 
-/// Inputs with all their digits, so that they can be tried.
+/// Formats inputs with all their digits, so that they can be tried.
 pub fn input_text(input: &BTreeMap<String, f32>) -> String {
     let one = |(name, value): (&String, &f32)| format!("{name} = {value:?}");
     input.iter().map(one).collect::<Vec<_>>().join(", ")

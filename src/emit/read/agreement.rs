@@ -1,7 +1,7 @@
-//! Whether code in halves is a formula, operation by operation.
+//! Comparison of code in halves with a formula, operation by operation.
 //!
-//! Which operations stay in single precision a formula does not say, and numbers are rounded: values
-//! would differ although the code is the formula. So the two are laid side by side.
+//! A formula does not say which operations stay in single precision, and numbers are rounded, so
+//! values would differ although the code is the formula. The two are compared as graphs instead.
 
 use super::{Precision, ReadBack, applied};
 use crate::eval::{Arithmetic, Half};
@@ -11,8 +11,8 @@ use half::f16;
 use std::collections::HashMap;
 
 impl ReadBack {
-    /// Whether each of its operations is one of the formula's, on the same arguments, and its numbers
-    /// are the formula's as halves hold them where they meet halves. Signs may stand elsewhere, and
+    /// Returns true if each operation is one of the formula's, on the same arguments, and numbers
+    /// are the formula's, rounded to halves where they meet halves. Signs may stand elsewhere, and
     /// multiply-adds may be split.
     pub fn is(&self, formula: &Program) -> bool {
         let sides = self.program.inputs == formula.inputs
@@ -37,7 +37,7 @@ impl ReadBack {
     }
 }
 
-/// The values of the instructions that depend on no input.
+/// Returns the values of instructions that depend on no input.
 fn constants(
     program: &Program,
     apply: &dyn Fn(usize, Op, [f32; MAX_ARITY]) -> f32,
@@ -66,13 +66,13 @@ enum Term {
     Product(u16),
 }
 
-/// What computes a term.
+/// The computation of a term.
 enum View {
     Input(u16),
-    /// Each with whether it is taken away.
+    /// Terms, each with whether it is subtracted.
     Sum([(Term, bool); 2]),
     Product([Term; 2]),
-    /// A reciprocal where there is no dividend.
+    /// Dividend and divisor; without a dividend, a reciprocal.
     Quotient(Option<Term>, Term),
     Other(Op, Vec<Term>),
     Constant,
@@ -82,18 +82,19 @@ struct Comparison<'a> {
     code: &'a ReadBack,
     formula: &'a Program,
     code_constants: Vec<Option<f32>>,
-    /// Those of the formula, in single precision and in halves.
+    /// The formula's constants, in single precision and in halves.
     singles: Vec<Option<f32>>,
     rounded: Vec<Option<f32>>,
     known: HashMap<(Term, Term, bool, bool), bool>,
     depth: usize,
 }
 
-/// Operations on operations on operations; nobody writes more.
+/// The deepest nesting that is compared: more than anyone writes, and no stack overflow.
 const MAX_DEPTH: usize = 2000;
 
 impl Comparison<'_> {
-    /// Whether the code's term is the formula's, or its negative, where halves or singles read it.
+    /// Returns true if the code's term is the formula's, or its negative, where halves or singles
+    /// read it.
     fn same(&mut self, code: Term, formula: Term, negative: bool, half: bool) -> bool {
         let (code, flipped) = self.bare(code);
         let (formula, turned) = stripped(self.formula, &self.singles, formula);
@@ -109,7 +110,7 @@ impl Comparison<'_> {
         same
     }
 
-    /// Without what only rounds it.
+    /// Strips operations that only round a term.
     fn bare(&self, term: Term) -> (Term, bool) {
         let (mut term, mut negative) = stripped(&self.code.program, &self.code_constants, term);
         while let Term::Value(Arg::Result(i)) = term {
@@ -124,7 +125,7 @@ impl Comparison<'_> {
         (term, negative)
     }
 
-    /// What the formula's term is where its operations are of singles or of halves.
+    /// Returns the formula's constant term as operations of singles or of halves compute it.
     fn numbers(&self, term: Term) -> Vec<f32> {
         let Term::Product(i) = term else {
             let known =
@@ -207,7 +208,7 @@ impl Comparison<'_> {
     }
 }
 
-/// Whether the code's number is the formula's.
+/// Returns true if the code's number is the formula's.
 fn is_number(found: f32, number: f32, negative: bool, half: bool) -> bool {
     let in_half = |x: f32| f16::from_f32(x).to_f32();
     let found = if negative { -found } else { found };
@@ -215,7 +216,7 @@ fn is_number(found: f32, number: f32, negative: bool, half: bool) -> bool {
     equal(found, number) || half && equal(in_half(found), in_half(number))
 }
 
-/// Without the signs before it, unless it is a number.
+/// Strips the signs before a term, unless it is a number.
 fn stripped(program: &Program, constants: &[Option<f32>], mut term: Term) -> (Term, bool) {
     let mut negative = false;
     while let Term::Value(Arg::Result(i)) = term {
@@ -229,7 +230,7 @@ fn stripped(program: &Program, constants: &[Option<f32>], mut term: Term) -> (Te
     (term, negative)
 }
 
-/// What it is, if that depends on no input.
+/// Returns the term's value, if it depends on no input.
 fn value(program: &Program, constants: &[Option<f32>], term: Term) -> Option<f32> {
     match term {
         Term::Value(Arg::Input(_)) => None,

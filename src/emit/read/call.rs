@@ -1,4 +1,4 @@
-//! Calls of functions, and which operation is written as which.
+//! Calls of functions, and the operations that they spell.
 
 use super::types::{Float, Type};
 use super::{Read, Reader, Value};
@@ -9,7 +9,7 @@ use crate::program::Arg;
 use crate::suggest::did_you_mean;
 
 impl Reader<'_> {
-    /// A call of `name`, after its parenthesis.
+    /// Reads a call of `name`, after its parenthesis.
     pub(super) fn call(&mut self, name: String, at: usize) -> Read<Value> {
         let by_name = matches!(self.language, Language::Glsl | Language::Wgsl);
         let structure = self.structure.as_ref().is_some_and(|known| known.name == name);
@@ -32,7 +32,7 @@ impl Reader<'_> {
         }
     }
 
-    /// `float(x)`, `half(x)`
+    /// Reads `float(x)` or `half(x)`.
     fn conversion(&mut self, to: Type) -> Read<Value> {
         let value = self.float()?;
         self.expect(')', "after what is converted")?;
@@ -47,7 +47,7 @@ impl Reader<'_> {
         }
     }
 
-    /// A constant of a program is finite; what is not is computed from such.
+    /// A program's constants are finite; infinities and NaNs are computed from them.
     fn float_of_bits(&mut self, bits: u32) -> Read<Arg> {
         let value = f32::from_bits(bits);
         if value.is_finite() {
@@ -66,7 +66,7 @@ impl Reader<'_> {
         let found = named.clone().find_map(|(op, call)| Some((op, self.matched(&call, args)?)));
         let of = self.meeting_of_arguments(&floats(args), at)?;
         match found {
-            // Between 0 and 1 it is a saturation, which is found as such.
+            // Between 0 and 1 it is a saturation, and read as such.
             None if name == "clamp" => self.clamp(args, of, at),
             Some((Op::Sign, args)) if self.syntax.readable.integer_sign => {
                 self.called(Op::Sign, &args, of, Type::Integer)
@@ -102,7 +102,7 @@ impl Reader<'_> {
         matches!(value.arg, Arg::Const(i) if self.draft.consts[usize::from(i)] == expected)
     }
 
-    /// The operation's arguments, in its order.
+    /// Returns the operation's arguments, in its order.
     fn matched(&self, call: &Call, values: &[Value]) -> Option<Vec<Arg>> {
         let mut args = [None; MAX_ARITY];
         for (place, value) in call.places.iter().zip(values) {
@@ -120,7 +120,8 @@ impl Reader<'_> {
     }
 }
 
-/// Those that are computed with, of a condition and the values to choose from the latter.
+/// Returns the values that are computed with; of a condition and the values that it chooses from,
+/// the latter.
 fn floats(values: &[Value]) -> Vec<Float> {
     let floats = values.iter().filter_map(|value| match value {
         Value::Float(value) => Some(*value),
@@ -135,14 +136,14 @@ struct Call {
     places: Vec<CallPart>,
 }
 
-/// What stands between two commas of a call.
+/// The content between two commas of a call.
 enum CallPart {
     Argument(usize),
     Less(usize, usize),
     Literal(f32),
 }
 
-/// The operation's spelling, if that is a call.
+/// Returns the operation's spelling, if that is a call.
 fn call_of(syntax: &Syntax, op: Op) -> Option<Call> {
     let template = (syntax.spelling)(op).template;
     let template = match template.strip_prefix("float(") {

@@ -1,21 +1,21 @@
-//! What the comments of a snippet say that it is: its formula, and what its columns are called.
+//! The contract in a snippet's comments: its formula, and the columns' names.
 
 use super::lex::Comment;
 use crate::program::{Names, ParseError, Program, parse};
 use std::collections::HashMap;
 
-/// What begins the line with the formula.
+/// The mark of the line with the formula.
 const FORMULA: &str = "formula:";
 
-/// What begins a line with a name that is written differently, and the name.
+/// The mark of a line with a name that is written differently, and the name.
 const NAME: &str = "names:";
 
-/// The line of a header that says what the function computes.
+/// Returns the header line that says what the function computes.
 pub fn formula_line(formula: &str) -> String {
     format!("{FORMULA} {formula}")
 }
 
-/// The line of a comment that says how a name is written.
+/// Returns the comment line that says how a name is written.
 pub(in crate::emit) fn name_line(written: &str, name: &str) -> String {
     format!("{NAME} {written} = {name}")
 }
@@ -25,31 +25,52 @@ pub(in crate::emit) fn name_line(written: &str, name: &str) -> String {
 pub struct Stated {
     /// Its line in the snippet, from 1.
     pub line: usize,
+    /// The formula itself.
     pub program: Program,
 }
 
-/// A comment that is no formula where one should be.
+/// A comment that should be a formula and is not.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum StatedError {
+    /// The formula cannot be parsed.
     #[error("line {line}: the formula in the comment cannot be read: {error}")]
-    Unreadable { line: usize, error: Box<ParseError> },
+    Unreadable {
+        /// The comment's line, from 1.
+        line: usize,
+        /// What is wrong with the formula.
+        error: Box<ParseError>,
+    },
+    /// A comment without a mark gives one output a value.
     #[error(
         "line {line}: a comment gives `{output}` a value, but is no formula of all that is returned; \
          word it otherwise, or mark the comment with the formula by `{FORMULA}`: {error}"
     )]
-    Unmarked { line: usize, output: String, error: Box<ParseError> },
-    #[error("lines {first} and {second} both are the formula; leave one, marked by `{FORMULA}`")]
-    Twice { first: usize, second: usize },
+    Unmarked {
+        /// The comment's line, from 1.
+        line: usize,
+        /// The output's name.
+        output: String,
+        /// Why it is no formula of all outputs.
+        error: Box<ParseError>,
+    },
+    /// Two comments are the formula.
+    #[error("lines {first} and {second} are both the formula; leave one, marked by `{FORMULA}`")]
+    Twice {
+        /// The first comment's line, from 1.
+        first: usize,
+        /// The second comment's line, from 1.
+        second: usize,
+    },
 }
 
-/// The comments, by what they are for.
+/// Comments by purpose.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Contract {
-    /// Lines, and what follows the mark.
+    /// Line numbers, and the text after the mark.
     formulas: Vec<(usize, String)>,
-    /// Other lines.
+    /// Line numbers and texts of other comments.
     unmarked: Vec<(usize, String)>,
-    /// Columns by how they are written.
+    /// Columns by their written names.
     columns: HashMap<String, String>,
 }
 
@@ -66,7 +87,7 @@ impl Contract {
     }
 
     fn take(&mut self, line: usize, text: &str) {
-        // As it was written before lines were marked.
+        // The form from before lines were marked.
         let renamed = (text.strip_prefix(NAME).and_then(|text| text.split_once(" = ")))
             .or_else(|| text.split_once(" is the column "));
         if let Some(formula) = text.strip_prefix(FORMULA) {
@@ -82,7 +103,7 @@ impl Contract {
         self.columns.get(written).map(String::as_str)
     }
 
-    /// The marked formula; without marks, the comment that gives outputs their values.
+    /// Returns the marked formula; without marks, the comment that gives outputs their values.
     pub fn formula(&self, names: &Names) -> Result<Option<Stated>, StatedError> {
         let mut found: Option<Stated> = None;
         for (line, text) in &self.formulas {
@@ -120,7 +141,7 @@ fn once(found: &mut Option<Stated>, stated: Stated) -> Result<(), StatedError> {
     }
 }
 
-/// Whether `name =` stands in the text.
+/// Returns true if `name =` stands in the text.
 fn assigns(text: &str, name: &str) -> bool {
     let is_part = |c: char| c.is_alphanumeric() || c == '_';
     !name.is_empty()

@@ -32,7 +32,7 @@ impl Reader<'_> {
         }
     }
 
-    /// The structure that the function may return.
+    /// Reads the structure that the function may return.
     fn structure(&mut self) -> Read<()> {
         if !self.take_word("struct") {
             return Ok(());
@@ -64,7 +64,7 @@ impl Reader<'_> {
         Ok(())
     }
 
-    /// `fn f(x: f32) -> f32`
+    /// Reads `fn f(x: f32) -> f32`.
     fn wgsl_head(&mut self) -> Read<Vec<String>> {
         if !self.take_word("fn") {
             return self.error(self.offset(), "expected a function, `fn f(x: f32) -> f32`");
@@ -78,7 +78,7 @@ impl Reader<'_> {
         Ok(inputs)
     }
 
-    /// `float f(float x)`
+    /// Reads `float f(float x)`.
     fn c_head(&mut self) -> Read<Vec<String>> {
         self.qualifiers(self.syntax.readable.of_functions);
         if self.peek().is_none() {
@@ -102,7 +102,7 @@ impl Reader<'_> {
         self.expect('(', "and the parameters of a function")
     }
 
-    /// What is returned, as the type says it.
+    /// Reads the returned type, and how many outputs it holds.
     fn returned_type(&mut self) -> Read<()> {
         let at = self.offset();
         let name = self.type_name()?;
@@ -134,7 +134,7 @@ impl Reader<'_> {
         Ok(names)
     }
 
-    /// Where a value comes from or goes to: `: TEXCOORD0`.
+    /// Reads where a value comes from or goes to: `: TEXCOORD0`.
     fn semantic(&mut self) -> Read<()> {
         let semantics = self.syntax.readable.semantics;
         if semantics && self.take_symbol(':') && self.take_name().is_none() {
@@ -165,7 +165,7 @@ impl Reader<'_> {
         found
     }
 
-    /// `x: f32` in WGSL, `float x` elsewhere.
+    /// Reads `x: f32` in WGSL, `float x` elsewhere.
     fn typed_name(&mut self, what: &str) -> Read<(String, Type)> {
         let mut at = self.offset();
         let expected = |reader: &Self| reader.error(reader.offset(), format!("expected {what}"));
@@ -188,7 +188,7 @@ impl Reader<'_> {
         }
     }
 
-    /// `float`, or `vec2<f32>`.
+    /// Reads `float`, or `vec2<f32>`.
     pub(super) fn type_name(&mut self) -> Read<String> {
         let Some(name) = self.take_name() else {
             return self.error(self.offset(), "expected a type");
@@ -196,7 +196,7 @@ impl Reader<'_> {
         Ok(self.with_element(name))
     }
 
-    /// The name with `<f32>` after it, if that is there.
+    /// Appends `<f32>` to the name, if it follows.
     pub(super) fn with_element(&mut self, name: String) -> String {
         let element = match self.tokens.get(self.next + 1) {
             Some((_, Token::Name(element))) => element.clone(),
@@ -209,7 +209,7 @@ impl Reader<'_> {
         format!("{name}<{element}>")
     }
 
-    /// What a type's components are, and how many it has.
+    /// Returns the type of a type's components, and their number.
     pub(super) fn known_type(&self, name: &str) -> Option<(Type, usize)> {
         let of = |types: &[&str], of: Type| {
             let size = types.iter().position(|known| *known == name)?;

@@ -7,7 +7,7 @@ use crate::emit::Language;
 use crate::op::Op;
 use crate::suggest::did_you_mean;
 
-/// Expressions nested more deeply are refused.
+/// Deeper nesting is refused, before the parser's recursion can exhaust the stack.
 const MAX_DEPTH: usize = 200;
 
 impl Reader<'_> {
@@ -24,7 +24,7 @@ impl Reader<'_> {
         }
     }
 
-    /// A sum, a comparison of two, or a choice by one.
+    /// Reads a sum, a comparison of two, or a choice by one.
     pub(super) fn expression(&mut self) -> Read<Value> {
         self.deeper(|reader| {
             let at = reader.offset();
@@ -88,7 +88,7 @@ impl Reader<'_> {
         self.chain([('*', Op::Mul), ('/', Op::Div)], Self::negation)
     }
 
-    /// Operands between operators that associate to the left.
+    /// Reads operands between operators that associate to the left.
     fn chain(
         &mut self,
         operators: [(char, Op); 2],

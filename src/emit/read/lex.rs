@@ -1,4 +1,4 @@
-//! Shader text to tokens, and its comments.
+//! Shader text as tokens and comments.
 
 use super::ReadError;
 use crate::emit::Language;
@@ -16,7 +16,7 @@ pub(super) enum Token {
 /// A decimal number.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Number {
-    /// As written, as far as an `f64` can tell.
+    /// The written value, as exact as an `f64` can be.
     pub exact: f64,
     pub single: f32,
     pub kind: NumberKind,
@@ -31,7 +31,7 @@ pub(super) enum NumberKind {
     Half,
 }
 
-/// A line of a comment, without what marks it as one.
+/// A line of a comment, without comment marks.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Comment<'a> {
     pub offset: usize,
@@ -39,7 +39,7 @@ pub(super) struct Comment<'a> {
 }
 
 pub(super) struct Lexed<'a> {
-    /// Each with the byte offset at which it starts.
+    /// Tokens, each with the byte offset where it starts.
     pub tokens: Vec<(usize, Token)>,
     pub comments: Vec<Comment<'a>>,
 }
@@ -93,7 +93,7 @@ pub(super) fn lex(language: Language, text: &str) -> Result<Lexed<'_>, ReadError
     Ok(lexed)
 }
 
-/// Compilers differ in what ends a line, and with it a comment.
+/// Refuses line ends that not all compilers take for one: comments would end differently.
 fn refuse_other_line_ends(text: &str) -> Result<(), ReadError> {
     let mut characters = text.char_indices().peekable();
     while let Some((at, c)) = characters.next() {
@@ -114,7 +114,7 @@ fn refuse_other_line_ends(text: &str) -> Result<(), ReadError> {
     Ok(())
 }
 
-/// In a comment, too, a backslash at a line's end makes the next line a part of it.
+/// Refuses backslashes at a line's end, which continue the line, comments too.
 fn refuse_continued_lines(text: &str) -> Result<(), ReadError> {
     let mut start = 0;
     for line in text.split_inclusive('\n') {
@@ -129,7 +129,7 @@ fn refuse_continued_lines(text: &str) -> Result<(), ReadError> {
     Ok(())
 }
 
-/// Those of WGSL nest.
+/// Returns the length of a block comment; WGSL's nest.
 fn block_length(language: Language, text: &str) -> Option<usize> {
     let (mut depth, mut at) = (0usize, 0);
     loop {
@@ -161,7 +161,7 @@ fn lines_of_block(offset: usize, block: &str) -> impl Iterator<Item = Comment<'_
     })
 }
 
-/// The length of the one line of the preprocessor that is emitted.
+/// Returns the length of the only preprocessor line that is emitted.
 fn directive(language: Language, text: &str) -> Result<usize, String> {
     let line = text.lines().next().unwrap_or("");
     let words: Vec<&str> = line.split_whitespace().collect();
@@ -179,7 +179,7 @@ fn count(text: &str, belongs: fn(u8) -> bool) -> usize {
     text.bytes().take_while(|&b| belongs(b)).count()
 }
 
-/// Digits, letters and dots, and the sign after an exponent's `e`.
+/// Returns the length of a number: digits, letters and dots, and the sign after an exponent's `e`.
 fn number_length(text: &str) -> usize {
     let length = count(text, |b| b.is_ascii_alphanumeric() || b == b'.');
     let is_exponent = text[..length].ends_with(['e', 'E']) && !text.starts_with("0x");
@@ -224,7 +224,7 @@ fn number(language: Language, text: &str) -> Result<Token, String> {
     Ok(Token::Number(Number { exact, single, kind }))
 }
 
-/// The digits, and what the suffix says.
+/// Splits a number into its digits and the kind that its suffix says.
 fn without_suffix(language: Language, text: &str) -> (&str, NumberKind) {
     let suffixes: &[(&str, NumberKind)] = match language {
         Language::Wgsl => &[("f", NumberKind::Single), ("h", NumberKind::Half)],

@@ -1,9 +1,9 @@
-//! Emitted functions back to programs.
+//! Reading of emitted functions back to programs.
 //!
-//! What is read is one function of floats, or of halves, straight through: locals, arithmetic, the
-//! functions that operations are written as, and a `return`. That is more than what is emitted, so that
-//! a snippet may be edited by hand and still be verified. Whatever else a compiler might make something
-//! of is refused, never skipped: a type, a number of another type, a line of the preprocessor.
+//! A snippet is one function of floats, or of halves, without branches: locals, arithmetic, the
+//! functions that spell operations, and a `return`. That is more than is emitted, so that a snippet
+//! may be edited by hand and still be verified. Anything else that a compiler might understand is
+//! refused, never skipped: a type, a number of another type, a preprocessor line.
 
 mod agreement;
 mod call;
@@ -27,16 +27,17 @@ use lex::{Comment, Token, lex};
 use std::collections::HashMap;
 use types::{Float, Type};
 
-/// Text that is no function of the language, or more than can be read.
+/// A text that is no function of the language, or more than can be read.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[error("snippet, line {line}, column {column}: {message}\n{}", pointed(.source_line, *.column))]
 pub struct ReadError {
-    /// From 1.
+    /// The line, from 1.
     pub line: usize,
-    /// In characters, from 1.
+    /// The column in characters, from 1.
     pub column: usize,
+    /// What is wrong.
     pub message: String,
-    /// The line of text in which it stands.
+    /// The text of the line.
     pub source_line: String,
 }
 
@@ -48,45 +49,47 @@ impl ReadError {
     }
 }
 
-/// In which numbers an instruction computes.
+/// The precision in which an instruction computes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Precision {
+    /// Single precision throughout.
     Single,
-    /// What it reads is rounded to halves before, and its result after.
+    /// Arguments are rounded to halves before, the result after.
     Half,
-    /// As in halves, but its result is what it reads, rounded.
+    /// As in halves, but the result is the argument, rounded.
     Rounding,
 }
 
 /// A function that was read.
 #[derive(Clone, Debug)]
 pub struct ReadBack {
+    /// What the function computes.
     pub program: Program,
-    /// The names of the columns, including those that were written differently.
+    /// The names of the columns; those that are written differently are restored.
     pub names: Names,
-    /// Of each instruction.
+    /// The precision of each instruction.
     pub precisions: Vec<Precision>,
-    /// Whether it is a function of halves: arguments and outputs are.
+    /// True for a function of halves: its arguments and outputs are halves.
     pub in_half: bool,
     contract: Contract,
 }
 
 impl ReadBack {
-    /// The formula that the comments say the function is, its outputs called `outputs`; none where they
-    /// say nothing of a formula.
+    /// Returns the formula that the comments state, its outputs called `outputs`, or none if they
+    /// state none.
     ///
     /// # Errors
-    /// [`StatedError`] where a comment is the formula of an output, or is marked as one, and cannot be
-    /// read; or where there are two.
+    /// [`StatedError`] if a comment that is the formula of an output, or is marked as one, cannot
+    /// be read; or if there are two.
     pub fn stated(&self, outputs: &[String]) -> Result<Option<Stated>, StatedError> {
         let names = Names { inputs: self.names.inputs.clone(), outputs: outputs.to_vec() };
         self.contract.formula(&names)
     }
 
-    /// The function's outputs in its own precision: halves where it has them.
+    /// Evaluates the function in its own precision, halves where it has them.
     ///
     /// # Panics
-    /// If `inputs` has not one value for each parameter.
+    /// If `inputs` does not have one value for each parameter.
     pub fn evaluate(&self, inputs: &[f32]) -> Vec<f32> {
         let program = &self.program;
         assert_eq!(inputs.len(), program.inputs, "one value for each input");
@@ -114,14 +117,14 @@ fn applied(op: Op, args: [f32; MAX_ARITY], precision: Precision) -> f32 {
     }
 }
 
-/// More text is refused before it is read.
+/// The longest text that is read, in bytes: far more than any emitted function.
 pub const MAX_SNIPPET: usize = 1 << 20;
 
 /// Reads an emitted function back.
 ///
 /// # Errors
-/// [`ReadError`] says where the text is not understood, or could mean something else to a compiler. No
-/// language is but those of [`Language::SHADING`].
+/// [`ReadError`] where the text is not understood, or could mean something else to a compiler.
+/// Languages outside [`Language::SHADING`] are not understood.
 pub fn read_back(language: Language, text: &str) -> Result<ReadBack, ReadError> {
     if text.len() > MAX_SNIPPET {
         let message = format!("{} bytes are more than a snippet has (at most 1 MiB)", text.len());
@@ -153,7 +156,7 @@ pub fn read_back(language: Language, text: &str) -> Result<ReadBack, ReadError> 
     reader.finished(names, &lexed.comments)
 }
 
-/// What an expression may be.
+/// The value of an expression.
 #[derive(Clone)]
 enum Value {
     Float(Float),
@@ -192,7 +195,7 @@ struct Reader<'a> {
     function: String,
     /// The type of the function's parameters and outputs.
     of: Type,
-    /// How many outputs it returns.
+    /// The number of outputs it returns.
     returned: usize,
     structure: Option<Structure>,
 }
@@ -260,7 +263,7 @@ impl Reader<'_> {
         found
     }
 
-    /// A result, of halves or of floats.
+    /// Adds an instruction of halves or of floats, and returns its result.
     fn push(&mut self, op: Op, args: &[Arg], of: Type) -> Read<Arg> {
         if self.draft.instrs.len() >= usize::from(u16::MAX) {
             return self.error(self.offset(), "more than 65535 operations");

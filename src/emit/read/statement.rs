@@ -1,4 +1,4 @@
-//! The statements of a function: locals, and what is returned.
+//! The statements of a function: locals and `return`.
 
 use super::lex::Token;
 use super::types::{Float, Type};
@@ -6,7 +6,7 @@ use super::{Read, Reader, Several, Value};
 use crate::emit::Language;
 
 impl Reader<'_> {
-    /// Gives the outputs' names after a `return`.
+    /// Reads a statement; returns the outputs' names after a `return`.
     pub(super) fn statement(&mut self) -> Read<Option<Vec<String>>> {
         if self.take_word("return") {
             return self.returned().map(Some);
@@ -18,7 +18,7 @@ impl Reader<'_> {
         Ok(None)
     }
 
-    /// `let t0 = x;`
+    /// Reads `let t0 = x;`.
     fn wgsl_local(&mut self) -> Read<()> {
         let at = self.offset();
         let Some(word) = ["let", "var", "const"].into_iter().find(|word| self.take_word(word))
@@ -54,7 +54,7 @@ impl Reader<'_> {
         self.define(&name, value, at)
     }
 
-    /// `const float t0 = x;`
+    /// Reads `const float t0 = x;`.
     fn c_local(&mut self) -> Read<()> {
         let start = self.offset();
         let qualifiers = self.qualifiers(self.syntax.readable.of_locals);
@@ -172,7 +172,7 @@ impl Reader<'_> {
         Ok(names)
     }
 
-    /// The name that is the whole of the expression ahead.
+    /// Returns the name that is the whole of the expression ahead.
     fn component_name(&self) -> Option<String> {
         let ends = [',', ')', '}', ';'].iter().any(|&symbol| self.is_symbol(1, symbol));
         match self.peek() {
@@ -181,7 +181,7 @@ impl Reader<'_> {
         }
     }
 
-    /// The components of a vector or a structure.
+    /// Reads the components of a vector or a structure.
     pub(super) fn several(&mut self, of: String, close: char) -> Read<Value> {
         let at = self.offset();
         let (element, size) = match (&self.structure, self.known_type(&of)) {
@@ -207,7 +207,8 @@ impl Reader<'_> {
         Ok(Value::Several(Several { of, components }))
     }
 
-    /// A vector is made of integers and floats of any precision, but in WGSL.
+    /// Converts a component: except in WGSL, a vector is made of integers and floats of any
+    /// precision.
     fn component(&mut self, value: Float, of: Type, at: usize) -> Read<Float> {
         match self.language {
             Language::Wgsl => self.converted(value, of, at),

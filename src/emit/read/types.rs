@@ -1,4 +1,4 @@
-//! The types of values, and what each language makes of two that meet.
+//! The types of values, and each language's conversions between them.
 
 use super::{Precision, Read, Reader};
 use crate::emit::Language;
@@ -11,16 +11,17 @@ pub(super) enum Type {
     Single,
     Half,
     Integer,
-    /// That of a number without a suffix where it takes the type of what it meets.
+    /// The type of a number without a suffix, where it takes the type of what it meets.
     Open,
 }
 
-/// A value that is computed with.
+/// A value to compute with.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Float {
     pub arg: Arg,
     pub of: Type,
-    /// What a compiler that folds in double precision knows it to be, where it is of numbers alone.
+    /// The value as a compiler that folds in double precision knows it, if it is made of numbers
+    /// alone.
     pub exact: Option<f64>,
 }
 
@@ -31,7 +32,7 @@ impl Float {
 }
 
 impl Reader<'_> {
-    /// What a number without a suffix is.
+    /// Returns the type of a number without a suffix.
     pub(super) fn plain_type(&self) -> Type {
         match self.language {
             Language::Hlsl | Language::Wgsl => Type::Open,
@@ -39,7 +40,7 @@ impl Reader<'_> {
         }
     }
 
-    /// The type in which two values meet in arithmetic.
+    /// Returns the type in which two values meet in arithmetic.
     pub(super) fn meeting(&self, a: Type, b: Type, at: usize) -> Read<Type> {
         use Type::{Half, Integer, Open, Single};
         let refused = |message: &str| self.error(at, message);
@@ -68,7 +69,7 @@ impl Reader<'_> {
         }
     }
 
-    /// The type of a call's result, whose arguments have these types.
+    /// Returns the type of a call's result from its arguments' types.
     pub(super) fn meeting_of_arguments(&self, args: &[Float], at: usize) -> Read<Type> {
         let integers = args.iter().filter(|arg| arg.of == Type::Integer).count();
         let several = matches!(self.language, Language::Hlsl | Language::Wgsl);
@@ -86,7 +87,7 @@ impl Reader<'_> {
         types.try_fold(first, |met, of| self.meeting(met, of, at))
     }
 
-    /// The value as a local, a parameter or a component of the type.
+    /// Converts the value to a local, a parameter or a component of the type.
     pub(super) fn converted(&mut self, value: Float, to: Type, at: usize) -> Read<Float> {
         let narrows = to == Type::Half && value.of == Type::Single;
         let widens = to == Type::Single && value.of == Type::Half;
@@ -104,7 +105,7 @@ impl Reader<'_> {
         }
     }
 
-    /// The value converted as is written.
+    /// Converts the value as an explicit cast does.
     pub(super) fn cast(&mut self, value: Float, to: Type) -> Read<Float> {
         let arg = match (to, value.of, value.arg) {
             (Type::Half, Type::Half, _) => value.arg,
@@ -122,7 +123,7 @@ impl Reader<'_> {
         Ok(Float { arg, of: to, exact: None })
     }
 
-    /// The larger of a value and itself, in halves, is the value rounded.
+    /// Rounds a value to halves, as the maximum of it and itself in halves.
     fn rounded(&mut self, arg: Arg) -> Read<Arg> {
         let rounded = self.push(Op::Max, &[arg, arg], Type::Half)?;
         if let Some(last) = self.precisions.last_mut() {
@@ -131,7 +132,7 @@ impl Reader<'_> {
         Ok(rounded)
     }
 
-    /// A sum, product and so on of two values.
+    /// Adds an arithmetic operation on two values.
     pub(super) fn arithmetic(&mut self, op: Op, [a, b]: [Float; 2], at: usize) -> Read<Float> {
         let of = self.meeting(a.of, b.of, at)?;
         let exact = match (a.exact, b.exact) {
@@ -150,7 +151,8 @@ impl Reader<'_> {
         Ok(Float { arg, of, exact })
     }
 
-    /// Some compilers fold numbers in double precision, others in that of their type.
+    /// Refuses numbers that compilers fold differently: some in double precision, some in that of
+    /// their type.
     fn folds_alike(&self, op: Op, args: [Float; 2], of: Type, exact: f64, at: usize) -> Read<()> {
         let [a, b] = args.map(|arg| arg.exact.unwrap_or(f64::NAN));
         let (typed, folded) = match of {

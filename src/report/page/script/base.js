@@ -14,7 +14,7 @@ const script = () => (state.published ? FUNCTIONS.published : FUNCTIONS.fronts[s
 /** The place of the front's measure among a formula's errors; the third is that of no other column. */
 const MEASURES = ["rmse", "max"];
 const measure = () => (MEASURES.includes(front().measure) ? MEASURES.indexOf(front().measure) : 2);
-/** What the search made small, where it is neither RMSE nor the maximum. */
+/** The measure that the search minimised, if it is neither RMSE nor the maximum. */
 const ownMeasure = MEASURES.includes(data.fronts[0].measure) ? null : data.fronts[0].title;
 const measureTitle = () => front().title;
 const axis = () => data.profiles[state.axis];

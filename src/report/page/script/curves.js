@@ -104,7 +104,7 @@ function drawConvergence() {
   };
   const shade = (k) => `color-mix(in oklab, var(--front) ${100 - 70 * (k / Math.max(1, trace.costs.length - 1))}%, var(--published))`;
   const lines = trace.costs.map((cost, k) => ({ values: trace.errors[k], name: `≤ ${cost}`, colour: shade(k) }));
-  panel(boxes[0], logarithmicOver(trace.errors.flat()), "what was made small, by cycles at most, before polishing", lines, 52);
+  panel(boxes[0], logarithmicOver(trace.errors.flat()), "the minimised error, for each limit on cycles, before polishing", lines, 52);
   const volume = trace.hypervolume.filter(Number.isFinite);
   panel(boxes[1], linear(Math.min(...volume), Math.max(...volume)), "hypervolume: cycles × log error", [{ values: trace.hypervolume, name: "", colour: "var(--front)" }], 14);
 }
