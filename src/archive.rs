@@ -11,6 +11,7 @@ pub struct Member {
     pub cost: f64,
     /// The search's loss; finite.
     pub loss: f64,
+    /// The formula, over the searched columns.
     pub draft: Draft,
 }
 
@@ -72,6 +73,7 @@ pub struct Archive {
 }
 
 impl Archive {
+    /// Returns the members by rising cost.
     pub fn members(&self) -> &[Member] {
         &self.members
     }

@@ -5,6 +5,7 @@ use crate::program::{Arg, Program};
 
 /// What the operations do with values of some kind.
 pub trait Arithmetic {
+    /// A number of this arithmetic.
     type Value: Copy;
 
     /// A constant of a program.

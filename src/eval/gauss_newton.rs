@@ -12,6 +12,7 @@ use crate::num::Lanes;
 pub struct Jacobian {
     /// How many of the tape's outputs are values.
     pub outputs: usize,
+    /// The number of constants.
     pub parameters: usize,
     /// For each value, its parameters and the tape's output that is the derivative by it. Empty lists
     /// may follow, kept for their allocations.
@@ -23,7 +24,9 @@ pub struct Jacobian {
 pub struct NormalEquations {
     /// Row-major, lower triangle filled.
     pub matrix: Vec<f64>,
+    /// `Jᵀr`, an entry for each constant.
     pub gradient: Vec<f64>,
+    /// `rᵀr`: weighted, over all outputs.
     pub sum_of_squares: f64,
 }
 

@@ -74,6 +74,7 @@ impl Default for Evaluator {
 }
 
 impl Evaluator {
+    /// Returns an evaluator that uses these instructions.
     pub fn new(isa: Isa) -> Evaluator {
         Evaluator { isa, slots: Vec::new() }
     }

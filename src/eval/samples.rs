@@ -66,10 +66,12 @@ impl Samples {
         self.rows
     }
 
+    /// Returns the number of inputs.
     pub fn inputs(&self) -> usize {
         self.inputs
     }
 
+    /// Returns the number of outputs.
     pub fn outputs(&self) -> usize {
         self.outputs
     }

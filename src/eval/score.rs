@@ -10,6 +10,7 @@ use serde::{Deserialize, Serialize};
 pub struct OutputError {
     /// Root mean square over the samples, whatever weights they were given.
     pub rmse: f64,
+    /// The largest absolute error, unweighted.
     pub max: f64,
     /// Root mean square of the errors relative to the value; values below a thousandth of the output's
     /// largest on the search split count as that.
@@ -29,7 +30,9 @@ pub struct OutputError {
 /// of both are what the dataset's user gave, and only [`OutputError::weighted`] and `visible` heed them.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Score {
+    /// Errors on the search split, by output.
     pub search: Vec<OutputError>,
+    /// Errors on the validation split, by output.
     pub validation: Vec<OutputError>,
     /// The outputs' units, as [`output_units`] has them.
     pub units: Vec<f64>,

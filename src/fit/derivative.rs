@@ -10,6 +10,7 @@ pub struct Differentiated {
     /// Its outputs are those of the original, then the derivatives that are not zero. Its first
     /// constants are the original's.
     pub program: Program,
+    /// The places of the derivatives among its outputs.
     pub jacobian: Jacobian,
     scratch: Draft,
     /// The derivative of each instruction by the constant at hand.

@@ -8,6 +8,7 @@ use crate::program::Draft;
 /// When a fit ends.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Stop {
+    /// Accepted steps, at most.
     pub max_steps: u32,
     /// A step that lowers the sum of squares by less than this share is the last.
     pub min_gain: f64,
@@ -16,6 +17,7 @@ pub struct Stop {
 /// Fits constants; owns the memory that it needs.
 #[derive(Clone, Debug, Default)]
 pub struct Fitter {
+    /// The evaluator that it works with.
     pub evaluator: Evaluator,
     /// Where fits on many samples end, with what they have by then.
     pub deadline: Deadline,

@@ -24,6 +24,7 @@ pub enum Measure {
 }
 
 impl Measure {
+    /// Every measure.
     pub const ALL: [Measure; 5] =
         [Measure::Rmse, Measure::Max, Measure::Weighted, Measure::Relative, Measure::Visible];
 

@@ -5,6 +5,7 @@ use crate::program::{ParseError, shortest};
 use std::path::PathBuf;
 
 /// Why a scene cannot be used. `scene` is its name, `dataset` that of the dataset it was to be used on.
+#[allow(missing_docs, reason = "each message names its fields")]
 #[derive(Debug, thiserror::Error)]
 pub enum Error {
     #[error(transparent)]

@@ -7,6 +7,7 @@ use serde::{Deserialize, Serialize};
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Histogram {
+    /// The inputs that it is over, one or several.
     pub inputs: Vec<String>,
     /// The range that is divided into bins, of each input; empty for what the scene leaves of their
     /// domains. Beyond it nothing occurs.

@@ -9,7 +9,9 @@ const MAX_JOINT: usize = 3;
 /// A column of a log: an input's value in each pixel.
 #[derive(Clone, Copy, Debug)]
 pub struct Logged<'a> {
+    /// The name of the input.
     pub name: &'a str,
+    /// Its value at each logged pixel.
     pub values: &'a [f32],
 }
 

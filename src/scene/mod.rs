@@ -62,6 +62,7 @@ pub struct Scene {
     /// That of its file, unless the file gives another.
     #[serde(default)]
     pub name: String,
+    /// A sentence about the use; may be empty.
     #[serde(default, skip_serializing_if = "String::is_empty")]
     pub description: String,
     /// Inputs, and the least and greatest value of each that occurs.

@@ -34,8 +34,11 @@ pub enum Change {
 /// A formula on the way to a cheaper one, over the view's columns.
 #[derive(Clone, Debug)]
 pub struct Step {
+    /// The change that led here.
     pub change: Change,
+    /// The formula after it.
     pub program: Program,
+    /// Its cycles.
     pub cost: f64,
 }
 

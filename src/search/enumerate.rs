@@ -35,6 +35,7 @@ const NEAR: f64 = 1.5;
 /// All programs of at most some cycles.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Enumeration {
+    /// Cycles.
     pub cost: f64,
     /// Programs that differ in more than constants.
     pub structures: usize,

@@ -14,6 +14,7 @@ use std::time::{Duration, Instant};
 
 /// How long work may take, and who hears of it.
 pub struct Work<'a> {
+    /// When it ends.
     pub deadline: Deadline,
     /// Told what share is done.
     pub progress: &'a (dyn Fn(f64) + Sync),

@@ -14,14 +14,17 @@ use rayon::prelude::*;
 /// A formula of the front.
 #[derive(Clone, Debug, PartialEq)]
 pub struct FrontMember {
+    /// The formula over the dataset's columns.
     pub program: Program,
     /// Cycles on the search's GPU profile.
     pub cost: f64,
     /// Registers on it; none where a run's record has none.
     pub registers: Option<u32>,
+    /// Its errors on both splits.
     pub score: Score,
     /// Not judged where nobody asked.
     pub verdict: VerdictRecord,
+    /// Its text.
     pub formula: String,
 }
 
@@ -84,7 +87,9 @@ impl FrontMember {
 /// A published formula, scored as a member would be.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ScoredIncumbent {
+    /// The name of the publication.
     pub name: String,
+    /// The formula, scored.
     pub member: FrontMember,
 }
 
@@ -98,6 +103,7 @@ const MIN_ERROR: f64 = 1e-9;
 pub struct Front {
     /// What its errors are judged by.
     pub measure: Measure,
+    /// The members by rising cost.
     pub members: Vec<FrontMember>,
 }
 

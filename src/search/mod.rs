@@ -61,6 +61,7 @@ const CONTENDING_BY_MEAN: f64 = 0.3;
 /// What became of the candidates; each is counted once under `considered` and where it ended.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Counts {
+    /// All candidates.
     pub considered: u64,
     /// More instructions than the grammar allows, or constants that are not finite.
     pub too_long: u64,
@@ -72,12 +73,15 @@ pub struct Counts {
     pub inadmissible: u64,
     /// Constants fitted on the subset: the sum of the following five.
     pub fitted: u64,
+    /// Infinite or NaN on a sample.
     pub not_finite: u64,
     /// Given up after the first steps of fitting.
     pub hopeless: u64,
+    /// Fitted, and worse than the individuals that are there.
     pub no_better: u64,
     /// Good enough, its values not as required.
     pub unfulfilled: u64,
+    /// Taken into a population.
     pub admitted: u64,
     /// Of those admitted, the ones fitted on all samples, since the archive may want them.
     pub fitted_on_all: u64,

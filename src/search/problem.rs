@@ -37,6 +37,7 @@ pub struct Problem {
 }
 
 /// A problem or a search that cannot be set up as asked.
+#[allow(missing_docs, reason = "each message names its fields")]
 #[derive(Debug, thiserror::Error)]
 pub enum SetupError {
     #[error(transparent)]
@@ -66,6 +67,7 @@ pub struct ProblemBuilder {
 
 /// What is not said otherwise.
 pub const USUAL_GRAMMAR: &str = "shader";
+/// The GPU profile where none is named.
 pub const USUAL_GPU: &str = "gcn";
 
 impl ProblemBuilder {
@@ -159,18 +161,22 @@ impl Problem {
         }
     }
 
+    /// Returns the dataset that formulas are searched for.
     pub fn dataset(&self) -> &Arc<Dataset> {
         &self.dataset
     }
 
+    /// Returns the grammar that formulas are written in.
     pub fn grammar(&self) -> &Arc<Grammar> {
         &self.grammar
     }
 
+    /// Returns the profile that costs are of.
     pub fn profile(&self) -> &Arc<Profile> {
         &self.profile
     }
 
+    /// Returns the goal.
     pub fn goal(&self) -> &Goal {
         &self.goal
     }

@@ -16,6 +16,7 @@ use serde::{Deserialize, Serialize};
 
 /// A condition on formulas. Those on values are checked on samples; of `Finite` and `Range` it is also
 /// tried to refute them anywhere in the domain before a formula is shown.
+#[allow(missing_docs, reason = "the variants' docs name their fields")]
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub enum Requirement {
     /// No output, or not this one, leaves the range.

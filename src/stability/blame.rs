@@ -11,7 +11,9 @@ use serde::Serialize;
 pub enum Cause {
     /// A small difference of large numbers.
     Cancellation,
+    /// A value beyond the largest finite number.
     Overflow,
+    /// A value below the least normal number.
     Underflow,
     /// No value: 0/0, the root of a negative number, ∞ − ∞.
     Undefined,
@@ -26,6 +28,7 @@ pub enum Cause {
 pub struct Blame {
     /// The instruction; none where an input or constant is to blame.
     pub instruction: Option<usize>,
+    /// The cause.
     pub cause: Cause,
     /// By how much the operation multiplies a relative error of an argument.
     pub condition: f64,

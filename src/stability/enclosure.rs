@@ -27,6 +27,7 @@ pub struct Enclosure {
 }
 
 impl Enclosure {
+    /// Returns an enclosure by this rounding.
     pub fn new(rounding: Rounding) -> Enclosure {
         Enclosure { rounding, inputs: Vec::new(), results: Vec::new(), terms: Terms::default() }
     }

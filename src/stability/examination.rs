@@ -11,17 +11,24 @@ use crate::program::{Program, effective};
 pub struct Examination {
     /// The effective code: what the instructions of everything below are of.
     pub program: Program,
+    /// The verdict on its claims.
     pub verdict: Verdict,
+    /// Its losses in single precision.
     pub single: Precision,
+    /// Its losses in half precision.
     pub half: Precision,
     /// The instructions that must stay in single precision for halves to err by `half_bound` at most;
     /// none where nothing helps.
     pub stay_single: Option<Vec<usize>>,
+    /// The absolute error up to which half precision is good enough.
     pub half_bound: f64,
     /// Where that was tried.
     pub half_tried: Tried,
+    /// How far results spread under the liberties of compilers.
     pub spreads: Vec<Spread>,
+    /// Outputs at the edges of the domain and beyond.
     pub extremes: Vec<Extent>,
+    /// Kinks, jumps and directions.
     pub smoothness: Smoothness,
 }
 

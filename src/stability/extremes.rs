@@ -27,17 +27,22 @@ const EXTREMES: [Extreme; 5] =
 /// A value, and where.
 #[derive(Clone, Debug, PartialEq)]
 pub struct At {
+    /// The value.
     pub value: f32,
+    /// The input that gives it.
     pub input: Vec<f32>,
 }
 
 /// What an output gives at a kind of place.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Extent {
+    /// The kind of points.
     pub place: Extreme,
+    /// The index of the output.
     pub output: usize,
     /// The least and the largest number; none where there is none.
     pub least: Option<At>,
+    /// The largest finite value.
     pub largest: Option<At>,
     /// Where it is no finite number.
     pub not_finite: Option<At>,

@@ -19,6 +19,7 @@ pub(super) const ARITHMETICS: [Half; 2] =
 /// Where half precision was tried.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 pub struct Tried {
+    /// The number of points that were tried.
     pub points: usize,
     /// Whether these are all inputs in the domain that halves hold, so that the worst of them is the
     /// worst there is.

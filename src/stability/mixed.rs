@@ -14,6 +14,7 @@ pub(super) const POINTS: usize = 8192;
 const FEW: usize = 48;
 
 /// What becomes no number, or nothing, as a half.
+#[allow(missing_docs, reason = "the variants' docs name their fields")]
 #[derive(Clone, Debug, PartialEq)]
 pub enum Unheld {
     /// A constant that is infinite as a half, or 0 although it is not; none where it is an output.

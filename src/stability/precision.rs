@@ -11,11 +11,15 @@ use crate::program::{Arg, Program};
 /// A worst case.
 #[derive(Clone, Debug, PartialEq)]
 pub struct PrecisionLoss {
+    /// The index of the output.
     pub output: usize,
+    /// The input.
     pub input: Vec<f32>,
     /// In low precision, and in `f64`.
     pub found: f64,
+    /// The value in `f64`.
     pub exact: f64,
+    /// The instruction to blame.
     pub blame: Blame,
 }
 
@@ -49,8 +53,11 @@ impl PrecisionLoss {
 /// numbers; and where low precision gives none, if anywhere.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Precision {
+    /// The largest absolute error.
     pub absolute: Option<PrecisionLoss>,
+    /// The largest relative error.
     pub relative: Option<PrecisionLoss>,
+    /// A value that is infinite or NaN only in low precision.
     pub not_finite: Option<PrecisionLoss>,
 }
 

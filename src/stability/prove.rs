@@ -10,8 +10,11 @@ use std::collections::{BinaryHeap, HashSet};
 /// What is claimed of an output, for every input of the domain. A NaN meets no claim.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub enum Bound {
+    /// Neither infinite nor NaN.
     Finite,
+    /// At least this.
     AtLeast(f64),
+    /// At most this.
     AtMost(f64),
 }
 
@@ -19,21 +22,27 @@ pub enum Bound {
 /// output first.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Property {
+    /// The index of the output.
     pub output: usize,
+    /// The bound that its values keep to.
     pub bound: Bound,
 }
 
 /// What became of a claim.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Status {
+    /// It holds for every input.
     Proved,
     /// The claim fails here: what the interpreter gives, which every GPU may give, too.
     Refuted {
+        /// The counterexample.
         input: Vec<f32>,
+        /// The output there.
         value: f32,
     },
     /// Neither; `volume` is the share of the domain where it is not proved.
     Open {
+        /// The share of the domain that is left.
         volume: f64,
     },
 }
@@ -41,6 +50,7 @@ pub enum Status {
 /// Whose arithmetic, and how much is forgiven and spent.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Limits {
+    /// The arithmetic that is meant.
     pub rounding: Rounding,
     /// By how much a value may leave a range.
     pub slack: f64,
@@ -62,6 +72,7 @@ impl Limits {
 }
 
 impl Property {
+    /// Returns the property that an output keeps to a bound.
     pub fn of(output: usize, bound: Bound) -> Property {
         Property { output, bound }
     }

@@ -8,6 +8,7 @@ use std::collections::BTreeMap;
 /// What is known of a formula's behaviour.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct VerdictRecord {
+    /// That no output is infinite or NaN.
     pub finite: ClaimRecord,
     /// None where nothing was asked.
     #[serde(default, skip_serializing_if = "Option::is_none")]
@@ -20,11 +21,13 @@ pub struct VerdictRecord {
 /// What became of a claim in the interpreter's arithmetic, and on GPUs.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct ClaimRecord {
+    /// In the interpreter's arithmetic.
     #[serde(flatten)]
     pub exact: StatusRecord,
     /// The claim that failed or is open, as `scale ≥ 0`.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub claim: Option<String>,
+    /// On GPUs, where that differs.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub gpu: Option<StatusRecord>,
 }
@@ -49,7 +52,9 @@ pub struct StatusRecord {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(untagged)]
 pub enum Value {
+    /// A finite number.
     Number(f32),
+    /// An infinity or NaN, by name.
     Text(String),
 }
 
@@ -97,6 +102,7 @@ impl VerdictRecord {
 }
 
 impl ClaimRecord {
+    /// Returns the record of a finding.
     pub fn new(finding: &Finding, names: &Names) -> ClaimRecord {
         let status = |status: &Status| StatusRecord::new(status, finding, names);
         let proved = (&finding.exact, &finding.gpu) == (&Status::Proved, &Status::Proved);

@@ -10,13 +10,17 @@ use serde::Serialize;
 /// Where an output is not smooth: the worst of its kind along one input.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Break {
+    /// The index of the output.
     pub output: usize,
+    /// The index of the input that changes.
     pub along: usize,
+    /// The place.
     pub input: Vec<f64>,
     /// The instruction whose branches meet there.
     pub instruction: usize,
     /// By how much the value jumps, and the slope.
     pub jump: f64,
+    /// The change of slope.
     pub kink: f64,
 }
 
@@ -24,9 +28,13 @@ pub struct Break {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Trend {
+    /// It does not change.
     Constant,
+    /// It never falls.
     Rising,
+    /// It never rises.
     Falling,
+    /// It rises and falls.
     Neither,
 }
 

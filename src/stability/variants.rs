@@ -28,8 +28,11 @@ const LIBERTIES: [Liberty; 4] =
 /// The largest difference that a liberty makes.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Spread {
+    /// The liberty.
     pub liberty: Liberty,
+    /// The index of the output.
     pub output: usize,
+    /// The input at which it spreads most.
     pub input: Vec<f32>,
     /// As written, and as rewritten.
     pub values: [f32; 2],

@@ -16,6 +16,7 @@ pub struct Questions {
     pub ranges: Vec<[f64; 2]>,
     /// Over these inputs and outputs.
     pub claims: Vec<Claim>,
+    /// By how much a value may leave its range.
     pub slack: f64,
 }
 
@@ -188,6 +189,7 @@ impl Group {
 /// A claim where some of its variables are at an end of their range.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Case {
+    /// The expression that is bounded.
     pub expression: String,
     /// Names and values; none of those that are anything in their range.
     pub variables: Vec<(String, Option<f32>)>,
@@ -200,6 +202,7 @@ pub struct Finding {
     pub topic: String,
     /// Of an output, or of what the case of a claim bounds.
     pub property: Property,
+    /// The values of the claim's variables.
     pub case: Option<Case>,
     /// In the interpreter's arithmetic.
     pub exact: Status,
@@ -210,6 +213,7 @@ pub struct Finding {
 /// What is known of a formula.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Verdict {
+    /// One finding a claim and case.
     pub findings: Vec<Finding>,
 }
 
