@@ -23,13 +23,13 @@ use serde::{Deserialize, Serialize};
 use std::cmp::Ordering;
 use std::collections::HashSet;
 
-/// Fits of each structure, from different constants.
+/// Fits of each structure, from different constants. By hand.
 const STARTS: u64 = 4;
 
 const ON_SUBSET: Stop = Stop { max_steps: 20, min_gain: 1e-3 };
 const ON_ALL: Stop = Stop { max_steps: 40, min_gain: 1e-4 };
 
-/// In mean square, how near the best so far a structure must come on the subset.
+/// In mean square, how near the best so far a structure must come on the subset. By hand.
 const NEAR: f64 = 1.5;
 
 /// All programs of at most some cycles.
@@ -42,7 +42,7 @@ pub struct Enumeration {
 }
 
 impl Enumeration {
-    /// The cost up to which `lgp search` enumerates unasked, if the structures are no more than this.
+    /// The cost up to which `lgp search` enumerates unasked, if the structures are no more than this. By hand.
     pub const USUAL: (f64, usize) = (1.0, 4000);
 }
 
@@ -115,7 +115,7 @@ fn best_of(
 const PARENTS: usize = 1024;
 
 /// Children that are looked at, at most, for each structure that may be found: with many inputs nearly all
-/// are too expensive.
+/// are too expensive. By hand: forty inputs are given up in time.
 const CHILDREN: usize = 600;
 
 /// Every structure, or nothing where there are more than `most`, or no time to find out.

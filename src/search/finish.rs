@@ -197,7 +197,7 @@ impl Rehearsal {
     }
 }
 
-/// The time that a member takes on average, relative to the costliest.
+/// The time that a member takes on average, relative to the costliest. By hand.
 const OF_DEAREST: f64 = 0.6;
 
 #[cfg(test)]

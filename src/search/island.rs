@@ -17,18 +17,19 @@ use rand_chacha::ChaCha8Rng;
 use serde::{Deserialize, Serialize};
 use std::sync::Arc;
 
-/// Structures that an island remembers having fitted; a newer one takes the place of an older.
+/// Structures that an island remembers having fitted; a newer one takes the place of an older. Half a megabyte, which
+/// stays in a processor's cache.
 const MEMORY: usize = 1 << 17;
 
-/// Fits of one structure, from different starting constants, before it counts as seen.
+/// Fits of one structure, from different starting constants, before it counts as seen. By hand.
 const TRIES: u32 = 2;
 
-/// A first look at a candidate, and what a shortlist one is given.
+/// A first look at a candidate, and what a promising one is given. By hand.
 const FIRST_STEPS: Stop = Stop { max_steps: 3, min_gain: 1e-3 };
 const MORE_STEPS: Stop = Stop { max_steps: 14, min_gain: 1e-3 };
 const ALL_SAMPLES: Stop = Stop { max_steps: 8, min_gain: 1e-3 };
 
-/// A quick look at the least maximum error.
+/// A quick look at the least maximum error, as long as a fit of [`MORE_STEPS`]. By hand.
 const QUICK_MINIMAX: Rounds = Rounds {
     most: 3,
     steps: Stop { max_steps: 2, min_gain: 1e-3 },
@@ -37,10 +38,11 @@ const QUICK_MINIMAX: Rounds = Rounds {
 };
 
 /// After the first steps a candidate this many times worse (in mean square) than what it must beat is
-/// hopeless; or its mean of squares, where it is the square of the maximum that must be beaten.
+/// hopeless; or its mean of squares, where it is the square of the maximum that must be beaten. By hand.
 const HOPELESS: f64 = 6.0;
 
-/// The subset's error estimates the whole table's to within this share.
+/// The share to within which the subset's error estimates the whole table's. By hand: 256 samples give a mean of
+/// squares to about a tenth.
 const SUBSET_TOLERANCE: f64 = 1.15;
 
 /// What sets islands apart.
@@ -56,6 +58,8 @@ struct Kind {
     by_maximum: bool,
 }
 
+/// The shares were chosen on the split-integral DFG: with half of the islands under half of the budget, 20 seconds came to
+/// .0121 at 12 cycles, .0141 before.
 const KINDS: [Kind; 8] = [
     Kind { share: 1.0, by_family: false, by_maximum: false },
     Kind { share: 0.3, by_family: true, by_maximum: false },
@@ -67,10 +71,11 @@ const KINDS: [Kind; 8] = [
     Kind { share: 0.8, by_family: true, by_maximum: false },
 ];
 
-/// Of the cost budget, for the number of candidates.
+/// The least share of the cost budget that counts for the number of candidates: so at most a hundred times as
+/// many. By hand.
 const MIN_SHARE: f64 = 0.1;
 
-/// Where families are kept apart, a bucket has this share of the size that it would have.
+/// Where families are kept apart, the share that a bucket has of its size. By hand.
 const FAMILY_BUCKET: f64 = 0.34;
 
 #[derive(Clone, Debug, Serialize, Deserialize)]

@@ -47,10 +47,10 @@ use std::sync::Arc;
 use std::time::Duration;
 
 /// For so long an island goes on before others have their turn: where a generation lasts long, none waits
-/// until there is no time left.
+/// until there is no time left. Short beside the second that a budget is long at least.
 const TURN: Duration = Duration::from_millis(100);
 
-/// In mean square, how much worse than the archive's a contender may be.
+/// How much worse in mean square than the archive's a contender may be. By hand.
 const CONTENDING: f64 = 4.0;
 
 /// Where the maximum error was searched for, the archive's losses are its squares: how much larger a

@@ -47,7 +47,8 @@ fn family(draft: &Draft) -> usize {
     })
 }
 
-/// How much worse than a cheaper individual one may be and still be let in.
+/// How much worse than a cheaper individual one may be and still be let in. By hand: a costlier
+/// structure may become better when it is varied.
 const SLACK: f64 = 1.5;
 
 impl Population {

@@ -40,7 +40,7 @@ pub enum Requirement {
 const EXACT: f64 = 1e-5;
 
 /// What the samples at the ends weigh, against others in the mean; more where it is the maximum error that counts,
-/// by which all become alike.
+/// by which all become alike. By hand: an end is then met to rounding.
 const WEIGHT_OF_ENDS: f64 = 1e4;
 const WEIGHT_OF_ENDS_BY_MAXIMUM: f64 = 1e7;
 
@@ -336,7 +336,7 @@ impl Checks {
     }
 }
 
-/// Boxes spent on a formula before it counts as not refuted.
+/// Boxes spent on a formula before it counts as not refuted. By hand.
 const BOXES: usize = 2000;
 
 /// Rows on which half precision is tried while a search goes on.

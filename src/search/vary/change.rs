@@ -108,7 +108,8 @@ pub(super) fn grow(rng: &mut ChaCha8Rng, draft: &mut Draft) {
     *edge_mut(draft, edge) = Arg::Result((at + count - 1) as u16);
 }
 
-/// What growth begins with.
+/// The factor or summand that growth begins with: it hardly changes the values, and the fit takes it from there. By
+/// hand.
 const SMALL: f32 = 1.0 / 256.0;
 
 pub(super) fn delete(rng: &mut ChaCha8Rng, draft: &mut Draft) {

@@ -11,13 +11,14 @@ pub(in crate::search) struct Rates {
     admitted: [f64; MOVES.len()],
 }
 
-/// Of what was known a generation ago, the share that still counts.
+/// The share of what was known a generation ago that still counts. By hand.
 const MEMORY: f64 = 0.9;
 
-/// A kind that pays more often than the others is made more often, up to so many times.
+/// A kind that pays more often than the others is made more often, up to so many times. By hand: no kind may
+/// crowd out the others.
 const MAX_FAVOURED: f64 = 1.7;
 
-/// Fits that are made up for each kind, so that nothing is concluded from a few.
+/// Fits that are made up for each kind, so that nothing is concluded from a few. By hand.
 const PRIOR: f64 = 50.0;
 
 impl Rates {
