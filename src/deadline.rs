@@ -36,11 +36,6 @@ impl Deadline {
     /// Never past.
     pub const NEVER: Deadline = Deadline { moment: None, stop: None, pause: None };
 
-    /// Ends at `moment`.
-    pub fn at(moment: Instant) -> Deadline {
-        Deadline { moment: Some(moment), ..Deadline::NEVER }
-    }
-
     /// Also ends with the next request from now on.
     pub fn or_request(self, stop: &Stop) -> Deadline {
         Deadline { stop: Some((stop.clone(), stop.requests())), ..self }
@@ -89,7 +84,6 @@ mod tests {
         let hour = Duration::from_secs(3600);
         let stop = Stop::default();
         assert!(!Deadline::NEVER.is_past());
-        assert!(Deadline::at(Instant::now()).is_past());
         assert!(Deadline::NEVER.within(Duration::ZERO).is_past());
         let later = Deadline::NEVER.within(hour).or_request(&stop);
         assert!(!later.is_past() && later.left().is_some_and(|left| left <= hour));

@@ -105,11 +105,6 @@ impl Tape {
         self.consts.extend(consts.iter().map(|&c| Block([c; BLOCK])));
     }
 
-    /// The number of operations it carries out for each sample.
-    pub fn operations(&self) -> usize {
-        self.steps.len()
-    }
-
     fn operand(&self, arg: Arg) -> Operand {
         match arg {
             Arg::Input(index) => Operand { area: Area::Columns, index },

@@ -50,7 +50,7 @@ impl Differentiated {
     }
 
     /// Differentiates by those constants that are free; the derivatives by the others are zero.
-    pub fn assign_free(&mut self, source: &Draft, is_free: impl Fn(usize) -> bool) {
+    pub(crate) fn assign_free(&mut self, source: &Draft, is_free: impl Fn(usize) -> bool) {
         self.scratch.copy_from(source);
         self.partials.clear();
         self.partials.resize(source.instrs.len(), None);

@@ -18,4 +18,4 @@ pub use minimax::{Rounds, minimax, minimax_free, shorten_minimax};
 pub use model::{Parameter, fit_model};
 pub use negligible::{drop_negligible, drop_negligible_minimax};
 pub use rounding::rounding_errors;
-pub use shorten::{shorten, shorten_free};
+pub use shorten::shorten;

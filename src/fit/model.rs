@@ -1,6 +1,7 @@
 //! A model of the user's own: some constants free, some within bounds, from several starts.
 
-use super::{Fitter, Measure, Rounds, Stop, minimax_free, shorten_free};
+use super::shorten::shorten_free;
+use super::{Fitter, Measure, Rounds, Stop, minimax_free};
 use crate::eval::Samples;
 use crate::program::Draft;
 use rand::{RngExt, SeedableRng};

@@ -22,7 +22,7 @@ pub(super) struct Comparison<'a> {
 
 impl<'a> Comparison<'a> {
     /// Of weighted sums of squares.
-    pub fn by_squares(samples: &'a Samples) -> Comparison<'a> {
+    pub(crate) fn by_squares(samples: &'a Samples) -> Comparison<'a> {
         Comparison::new(samples, false)
     }
 

@@ -24,7 +24,7 @@ pub fn shorten(fitter: &mut Fitter, draft: &mut Draft, samples: &Samples, allowa
 }
 
 /// [`shorten`] of those constants that are free, by index; the others keep their values.
-pub fn shorten_free(
+pub(crate) fn shorten_free(
     fitter: &mut Fitter,
     draft: &mut Draft,
     samples: &Samples,

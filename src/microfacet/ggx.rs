@@ -55,12 +55,6 @@ pub fn visibility_correlated<T: Real>(n_dot_v: T, n_dot_l: T, alpha: T) -> T {
     T::HALF / sum_of_projected(n_dot_v, n_dot_l, alpha)
 }
 
-/// `G2 / (4 n·v n·l)` with the separable G2.
-pub fn visibility_separable<T: Real>(n_dot_v: T, n_dot_l: T, alpha: T) -> T {
-    let denominator = |cosine| cosine + projected(cosine, alpha);
-    T::ONE / (denominator(n_dot_v) * denominator(n_dot_l))
-}
-
 fn sum_of_projected<T: Real>(n_dot_v: T, n_dot_l: T, alpha: T) -> T {
     n_dot_l * projected(n_dot_v, alpha) + n_dot_v * projected(n_dot_l, alpha)
 }
@@ -118,8 +112,6 @@ mod tests {
                     let area = 4.0 * v * l;
                     let correlated = visibility_correlated(v, l, alpha) * area;
                     assert!((correlated / g2_correlated(v, l, alpha) - 1.0).abs() < 1e-14);
-                    let separable = visibility_separable(v, l, alpha) * area;
-                    assert!((separable / g2_separable(v, l, alpha) - 1.0).abs() < 1e-14);
                 }
             }
         }

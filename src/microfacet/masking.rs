@@ -26,20 +26,6 @@ pub fn g2_hammon<T: Real>(n_dot_v: T, n_dot_l: T, alpha: T) -> T {
     twice_product / (twice_product + alpha * (n_dot_l + n_dot_v - twice_product))
 }
 
-/// `G2 / (4 n·v n·l)` of [`g2_hammon`], finite at the horizon:
-/// `1 / (2 lerp(2 n·l n·v, n·l + n·v, α))`.
-pub fn visibility_hammon<T: Real>(n_dot_v: T, n_dot_l: T, alpha: T) -> T {
-    let twice_product = T::TWO * n_dot_l * n_dot_v;
-    T::HALF / (twice_product + alpha * (n_dot_l + n_dot_v - twice_product))
-}
-
-/// Masking and shadowing by long V-shaped cavities (Cook and Torrance, "A
-/// Reflectance Model for Computer Graphics", 1982):
-/// `min(1, 2 n·h n·v / v·h, 2 n·h n·l / v·h)`. `v_dot_h` in (0, 1].
-pub fn g2_v_cavity<T: Real>(n_dot_v: T, n_dot_l: T, n_dot_h: T, v_dot_h: T) -> T {
-    T::ONE.min(T::TWO * n_dot_h * n_dot_v.min(n_dot_l) / v_dot_h)
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -51,8 +37,6 @@ mod tests {
             for (v, l) in [(0.1, 0.9), (0.5, 0.5), (1.0, 0.02)] {
                 let expected = 1.0 / (1.0 + lambda(v, alpha) + lambda(l, alpha));
                 assert!((g2_hammon(v, l, alpha) / expected - 1.0).abs() < 1e-13);
-                let lobe = 4.0 * v * l * visibility_hammon(v, l, alpha);
-                assert!((lobe / expected - 1.0).abs() < 1e-13);
             }
         }
     }
@@ -64,12 +48,5 @@ mod tests {
         assert_eq!(g2_hammon(0.0_f32, 0.5, 0.0), 1.0);
         assert_eq!(g1_schlick(0.0, 0.0), 1.0);
         assert_eq!(g1_schlick(0.0, 0.5), 0.0);
-    }
-
-    #[test]
-    fn cavities_hide_at_grazing_only() {
-        assert_eq!(g2_v_cavity(0.9, 0.9, 1.0, 0.9), 1.0);
-        let grazing: f64 = g2_v_cavity(0.1, 0.9, 0.6, 0.8);
-        assert!((grazing - 2.0 * 0.6 * 0.1 / 0.8).abs() < 1e-15);
     }
 }

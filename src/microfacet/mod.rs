@@ -12,11 +12,11 @@
 //! | module | holds |
 //! |---|---|
 //! | [`ggx`], [`beckmann`], [`blinn_phong`] | distributions of normals, and Smith's masking where it exists |
-//! | [`masking`] | cheaper masking and shadowing: Schlick, Hammon, Cook–Torrance |
+//! | [`masking`] | cheaper masking and shadowing: Schlick, Hammon |
 //! | [`fresnel`] | reflectance of a smooth interface, exact and approximate |
 //! | [`half_vector`] | half-vectors of reflection and refraction, with their Jacobians |
 //! | [`sampling`] | normals by their distribution, or by the visible part of it |
-//! | [`specular`], [`diffuse`] | whole BRDFs and a BTDF |
+//! | [`specular`], [`diffuse`] | a BRDF, a BTDF and diffuse lobes |
 
 pub mod beckmann;
 pub mod blinn_phong;

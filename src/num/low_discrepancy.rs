@@ -1,7 +1,6 @@
 //! Spreads points over the unit cube more evenly than random ones do, or on grids.
 //!
-//! Sources: Halton, "On the efficiency of certain quasi-random sequences of
-//! points", 1960; Hammersley, "Monte Carlo methods for solving multivariable
+//! Sources: Hammersley, "Monte Carlo methods for solving multivariable
 //! problems", 1960; Sobol', "On the distribution of points in a cube", 1967,
 //! with the direction numbers of Joe and Kuo, "Constructing Sobol sequences
 //! with better two-dimensional projections", 2008 (`new-joe-kuo-6`).
@@ -11,15 +10,15 @@
 
 use rand::{Rng, RngExt};
 
-/// The most dimensions of [`halton`], [`hammersley`] and [`Sobol`]; the direction numbers below go
+/// The most dimensions of [`hammersley`] and [`Sobol`]; the direction numbers below go
 /// no further.
-pub const MAX_DIMENSIONS: usize = 16;
+pub(crate) const MAX_DIMENSIONS: usize = 16;
 
 const PRIMES: [u64; MAX_DIMENSIONS] = [2, 3, 5, 7, 11, 13, 17, 19, 23, 29, 31, 37, 41, 43, 47, 53];
 
 /// Mirrors the digits of `index`, in a base of at least 2, at the point: 6 = 110₂ becomes 0.011₂ =
 /// 3/8.
-pub fn radical_inverse(base: u64, mut index: u64) -> f64 {
+fn radical_inverse(base: u64, mut index: u64) -> f64 {
     let (mut mirrored, mut unit) = (0.0, 1.0);
     while index > 0 {
         unit /= base as f64;
@@ -30,14 +29,8 @@ pub fn radical_inverse(base: u64, mut index: u64) -> f64 {
     mirrored.min(1.0 - f64::EPSILON / 2.0)
 }
 
-/// Returns point `index` of Halton's sequence: radical inverses in the first primes.
-pub fn halton<const D: usize>(index: u64) -> [f64; D] {
-    const { assert!(D <= MAX_DIMENSIONS) };
-    std::array::from_fn(|axis| radical_inverse(PRIMES[axis], index))
-}
-
 /// Returns point `index` of Hammersley's set of `count` points: `index / count`, then radical
-/// inverses. Its discrepancy is lower than that of [`halton`], but `count` must be known before.
+/// inverses in the first primes.
 pub fn hammersley<const D: usize>(index: u64, count: u64) -> [f64; D] {
     const { assert!(D <= MAX_DIMENSIONS) };
     std::array::from_fn(|axis| match axis {
@@ -122,27 +115,18 @@ fn directions(axis: usize) -> [u64; BITS] {
     directions
 }
 
-/// Returns the centre of cell `index` of a regular grid of `cells` along each axis, the last axis
-/// varying fastest.
-pub fn regular_grid<const D: usize>(cells: [u64; D], index: u64) -> [f64; D] {
-    in_cell(cells, index, || 0.5)
-}
-
-/// Returns a random point of cell `index` of such a grid.
-pub fn jittered_grid<const D: usize>(cells: [u64; D], index: u64, rng: &mut impl Rng) -> [f64; D] {
-    in_cell(cells, index, || rng.random::<f64>())
-}
-
-fn in_cell<const D: usize>(
+/// Returns a random point of cell `index` of a regular grid of `cells` along each axis, the last
+/// axis varying fastest.
+pub fn jittered_grid<const D: usize>(
     cells: [u64; D],
     mut index: u64,
-    mut place: impl FnMut() -> f64,
+    rng: &mut impl Rng,
 ) -> [f64; D] {
     let mut point = [0.0; D];
     for axis in (0..D).rev() {
-        let cell = index % cells[axis];
+        let place = (index % cells[axis]) as f64 + rng.random::<f64>();
         index /= cells[axis];
-        point[axis] = ((cell as f64 + place()) / cells[axis] as f64).min(1.0 - f64::EPSILON / 2.0);
+        point[axis] = (place / cells[axis] as f64).min(1.0 - f64::EPSILON / 2.0);
     }
     point
 }
@@ -180,7 +164,6 @@ mod tests {
         assert!(thirds.iter().zip(expected).all(|(a, b)| (a - b).abs() < 1e-15));
         assert!(radical_inverse(53, u64::MAX) < 1.0);
         assert_eq!(hammersley::<2>(3, 4), [0.75, 0.75]);
-        assert_eq!(halton::<2>(1), [0.5, 1.0 / 3.0]);
     }
 
     #[test]
@@ -261,23 +244,18 @@ mod tests {
         };
         let random = discrepancy(&random());
         let jittered = of(&mut |index| jittered_grid([32, 32], index, &mut rng));
-        let regular = of(&mut |index| regular_grid([32, 32], index));
-        let [halton, hammersley, sobol] = [
-            of(&mut |index| halton(index + 1)),
-            of(&mut |index| hammersley(index, POINTS)),
-            of(&mut |index| sobol.point(index)),
-        ];
+        let [hammersley, sobol] =
+            [of(&mut |index| hammersley(index, POINTS)), of(&mut |index| sobol.point(index))];
         // Expected of random points: sqrt((1/4 - 1/9) / n) = .0116.
         assert!((0.004..0.03).contains(&random), "{random}");
         assert!(jittered < 0.5 * random, "{jittered} {random}");
-        for even in [halton, hammersley, sobol] {
-            assert!(even < 0.3 * random && even < 0.3 * regular, "{even} {random} {regular}");
+        for even in [hammersley, sobol] {
+            assert!(even < 0.3 * random, "{even} {random}");
         }
     }
 
     #[test]
     fn grids_have_a_point_in_each_cell() {
-        assert_eq!(regular_grid([2, 4], 5), [0.75, 0.375]);
         let mut rng = ChaCha8Rng::seed_from_u64(3);
         for index in 0..12 {
             let [x, y] = jittered_grid([3, 4], index, &mut rng);

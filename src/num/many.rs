@@ -22,13 +22,6 @@ macro_rules! array_of {
 #[derive(Clone, Copy)]
 pub struct Many<L, const N: usize>([L; N]);
 
-impl<const N: usize> Many<f32, N> {
-    /// Returns the lanes, first to last.
-    pub fn to_array(self) -> [f32; N] {
-        self.0
-    }
-}
-
 macro_rules! operators_by_register {
     ($($operator:ident $method:ident),*) => {$(
         impl<L: Lanes, const N: usize> $operator for Many<L, N> {

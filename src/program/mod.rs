@@ -234,15 +234,6 @@ impl Program {
         Ok(())
     }
 
-    /// Replaces the constant table.
-    ///
-    /// # Panics
-    /// If the number of constants differs, or one is not finite.
-    pub fn set_constants(&mut self, consts: &[f32]) {
-        assert!(consts.iter().all(|c| c.is_finite()), "finite constants");
-        self.0.consts.copy_from_slice(consts);
-    }
-
     /// Evaluates the outputs at one sample, by the scalar reference semantics.
     ///
     /// # Panics

@@ -31,13 +31,13 @@ use std::io::{Read, Write};
 use std::path::{Path, PathBuf};
 use std::time::{Duration, SystemTime, UNIX_EPOCH};
 
-pub const RUN: &str = "run.ron";
+pub(crate) const RUN: &str = "run.ron";
 pub const CHECKPOINT: &str = "checkpoint.bin";
 /// The front in the measure that was searched for, and in maximum error.
 pub const FRONT: &str = "front.json";
-pub const MINIMAX_FRONT: &str = "front-max.json";
-pub const TRACE: &str = "trace.csv";
-pub const CENSUS: &str = "census.json";
+pub(crate) const MINIMAX_FRONT: &str = "front-max.json";
+pub(crate) const TRACE: &str = "trace.csv";
+pub(crate) const CENSUS: &str = "census.json";
 const LOCK: &str = "lock";
 const SNIPPETS: &str = "snippets";
 /// The front as a table.
@@ -155,7 +155,7 @@ impl Folder {
     ///
     /// # Errors
     /// [`RecordError::Unwritable`]: where the checkpoint could not be written, all is as it was.
-    pub fn begin_anew(&self, checkpoint: &[u8]) -> Result<(), RecordError> {
+    pub(crate) fn begin_anew(&self, checkpoint: &[u8]) -> Result<(), RecordError> {
         let snippets = snippets_in(&self.path);
         let path = self.path.join(CHECKPOINT);
         let staged = StagedFile::new(&path, checkpoint).map_err(unwritable(&path))?;
@@ -299,7 +299,11 @@ pub fn load_trace(folder: &Path, run: &Run) -> Result<Option<Trace>, RecordError
 ///
 /// # Errors
 /// If it cannot be read, or is not the one that the run was written with.
-pub fn load_text(folder: &Path, run: &Run, file: &str) -> Result<Option<String>, RecordError> {
+pub(crate) fn load_text(
+    folder: &Path,
+    run: &Run,
+    file: &str,
+) -> Result<Option<String>, RecordError> {
     let path = folder.join(file);
     if !path.exists() && !run.files.contains_key(file) {
         return Ok(None);

@@ -24,8 +24,8 @@ pub use census::{Census, Recurring};
 pub use checkpoint::Checkpoint;
 pub use error::RecordError;
 pub use folder::{
-    CHECKPOINT, FRONT_TABLE, Folder, Holding, TRACE, front_files, in_the_way, load_front, load_run,
-    load_text, load_trace,
+    CHECKPOINT, FRONT_TABLE, Folder, Holding, front_files, in_the_way, load_front, load_run,
+    load_trace,
 };
 pub use member::MemberRecord;
 pub use merge::{Incompatible, merge};

@@ -196,7 +196,7 @@ impl Checks {
     }
 
     /// Whether a formula is built as required; its values are not looked at.
-    pub fn structure_ok(&self, draft: &Draft) -> bool {
+    pub(crate) fn structure_ok(&self, draft: &Draft) -> bool {
         self.requirements.iter().all(|requirement| match *requirement {
             Requirement::Operation(wanted) => draft.instrs.iter().any(|instr| instr.op() == wanted),
             Requirement::Input(wanted) => {
@@ -208,7 +208,7 @@ impl Checks {
     }
 
     /// Whether a formula's values are as required on the samples.
-    pub fn hold_on_samples(&self, draft: &Draft, evaluator: &mut Evaluator) -> bool {
+    pub(crate) fn hold_on_samples(&self, draft: &Draft, evaluator: &mut Evaluator) -> bool {
         let of_halves = |one: &Requirement| matches!(one, Requirement::Half { .. });
         if self.samples.iter().all(Vec::is_empty) && !self.requirements.iter().any(of_halves) {
             return true;

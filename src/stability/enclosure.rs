@@ -57,14 +57,6 @@ impl Enclosure {
         }
     }
 
-    /// What an instruction can give on the box last evaluated.
-    ///
-    /// # Panics
-    /// If there is no such instruction.
-    pub fn instruction(&self, index: usize) -> Interval {
-        self.results[index].bounds
-    }
-
     /// What an argument or output can be on the box last evaluated.
     pub fn bounds(&self, program: &Program, arg: Arg) -> Interval {
         self.value(program, arg).bounds

@@ -51,7 +51,7 @@ pub use half::{Tried, half_error};
 pub use mixed::{Unheld, half_loss, must_stay_single, unheld};
 pub use points::points_in;
 pub use precision::{Precision, PrecisionLoss};
-pub use prove::{Bound, Limits, Property, Status, Stopped, prove, prove_until};
+pub use prove::{Bound, Limits, Property, Status, Stopped, prove};
 pub use record::{ClaimRecord, StatusRecord, Value, VerdictRecord};
 pub use rounding::Rounding;
 pub use smoothness::{Break, JUMP, Smoothness, Trend};

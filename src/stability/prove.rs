@@ -150,7 +150,7 @@ pub fn prove(
 ///
 /// # Panics
 /// As [`prove`] does.
-pub fn prove_until(
+pub(crate) fn prove_until(
     program: &Program,
     domain: &[Interval],
     claims: &[Property],

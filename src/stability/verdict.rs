@@ -1,6 +1,7 @@
 //! What is asked of a formula as a rule, and what became of it.
 
-use super::{Bound, Limits, Property, Rounding, Status, Stopped, prove_until};
+use super::prove::prove_until;
+use super::{Bound, Limits, Property, Rounding, Status, Stopped};
 use crate::dataset::Column;
 use crate::num::{Interval, inside};
 use crate::op::Op;

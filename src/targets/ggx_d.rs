@@ -24,7 +24,7 @@ pub(super) const TARGET: Target = Target {
 };
 
 /// `π α² D`, in [0, 1], of `n_dot_h` in [0, 1] and `alpha` in (0, 1].
-pub fn over_peak(n_dot_h: f64, alpha: f64) -> f64 {
+pub(crate) fn over_peak(n_dot_h: f64, alpha: f64) -> f64 {
     ggx::distribution(n_dot_h, alpha) * PI * alpha * alpha
 }
 

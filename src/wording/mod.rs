@@ -4,7 +4,5 @@ pub mod examination;
 mod table;
 mod verdict;
 
-pub use table::{axis_title, cut, cycles_text, dominating, error_text, front_table, title};
-pub use verdict::{
-    claim_text, input_text, number_text, share_text, status_text, value_text, verdict_lines,
-};
+pub use table::{axis_title, cut, cycles_text, error_text, front_table, title};
+pub use verdict::{claim_text, number_text, verdict_lines};

@@ -140,7 +140,7 @@ pub fn axis_title(measure: Measure) -> &'static str {
 }
 
 /// Returns the cheapest member that dominates an incumbent, and its index.
-pub fn dominating<'a>(
+pub(crate) fn dominating<'a>(
     known: &ScoredIncumbent,
     front: &'a Front,
 ) -> Option<(usize, &'a FrontMember)> {

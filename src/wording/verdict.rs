@@ -27,7 +27,7 @@ pub fn claim_text(claim: &ClaimRecord) -> String {
 }
 
 /// Describes a status: where, and how far.
-pub fn status_text(status: &StatusRecord) -> String {
+pub(crate) fn status_text(status: &StatusRecord) -> String {
     match (&status.input, &status.value, status.volume) {
         (Some(input), Some(value), _) => {
             format!("{}: {} at {}", status.status, value_text(value), input_text(input))
@@ -40,13 +40,13 @@ pub fn status_text(status: &StatusRecord) -> String {
 }
 
 /// Formats a share as a percentage.
-pub fn share_text(share: f64) -> String {
+pub(crate) fn share_text(share: f64) -> String {
     let percent = share * 100.0;
     if percent >= 0.01 { format!("{percent:.2} %") } else { format!("{percent:.0e} %") }
 }
 
 /// Formats a number as [`number_text`] does; other values are text already.
-pub fn value_text(value: &Value) -> String {
+pub(crate) fn value_text(value: &Value) -> String {
     match value {
         Value::Number(number) => number_text((*number).into()),
         Value::Text(text) => text.clone(),
@@ -70,7 +70,7 @@ pub fn number_text(number: f64) -> String {
 }
 
 /// Formats inputs with all their digits, so that they can be tried.
-pub fn input_text(input: &BTreeMap<String, f32>) -> String {
+pub(crate) fn input_text(input: &BTreeMap<String, f32>) -> String {
     let one = |(name, value): (&String, &f32)| format!("{name} = {value:?}");
     input.iter().map(one).collect::<Vec<_>>().join(", ")
 }

@@ -110,7 +110,7 @@ fn check(
             let point: Vec<f32> = domain.iter().map(|&side| sample(&mut rng, side)).collect();
             for values in values(&program, &point, &mut rng) {
                 for (i, &value) in values.iter().enumerate() {
-                    let bounds = enclosure.instruction(i);
+                    let bounds = enclosure.bounds(&program, Arg::Result(i as u16));
                     assert!(
                         bounds.contains(value),
                         "{:?}, instruction {i}: {value:e} outside {bounds:?} at {point:?} of {domain:?} in {program:?}",

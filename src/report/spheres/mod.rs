@@ -54,7 +54,7 @@ pub struct Spheres {
 }
 
 /// The radius, where half the width of a picture is 1.
-pub const RADIUS: f32 = 0.94;
+pub(crate) const RADIUS: f32 = 0.94;
 
 impl Spheres {
     /// Nothing if the columns are none that a material is known for. Beyond an input's domain its ends
@@ -76,7 +76,7 @@ impl Spheres {
     }
 
     /// Whether what is drawn depends on the environment.
-    pub fn has_environments(outputs: &[String]) -> bool {
+    pub(crate) fn has_environments(outputs: &[String]) -> bool {
         shading::has_environment(outputs)
     }
 
@@ -141,7 +141,7 @@ pub fn displayed_rmse(a: &[[f32; 3]], b: &[[f32; 3]], size: usize) -> f64 {
 }
 
 /// By so much is a difference of displayed colours magnified.
-pub const DIFFERENCE_TIMES: f32 = 3.0;
+pub(crate) const DIFFERENCE_TIMES: f32 = 3.0;
 
 /// The magnified absolute difference of two pictures.
 pub fn difference(a: &[[f32; 3]], b: &[[f32; 3]]) -> Vec<[f32; 3]> {
