@@ -1,4 +1,4 @@
-//! Several runs beside each other.
+//! The comparison of several runs.
 
 use super::Error;
 use super::page::{self, ComparedRun, Comparison, Group};
@@ -7,7 +7,7 @@ use crate::run::{Run, TRACE_COSTS, load_front, load_run, load_trace};
 use crate::wording::axis_title;
 use std::path::PathBuf;
 
-/// The page that compares the runs of several folders.
+/// Returns the page that compares the runs of several folders.
 ///
 /// # Errors
 /// [`Error::Record`]; [`Error::Incomparable`]; [`Error::NothingToCompare`] without a folder.
@@ -48,14 +48,14 @@ pub fn comparison(folders: &[PathBuf]) -> Result<String, Error> {
     Ok(page::comparison(&comparison))
 }
 
-/// What the run made small, and the usual measures.
+/// Returns the measure that the run minimised, and the usual ones.
 fn measures(run: &Run) -> Vec<Measure> {
     let own = run.goal.measure;
     let usual = [Measure::Rmse, Measure::Max].into_iter().filter(|one| *one != own);
     [own].into_iter().chain(usual).collect()
 }
 
-/// Errors and cycles must be of the same data and GPU.
+/// Checks that errors and cycles are of the same data and GPU.
 fn check_comparable(
     folders: &[PathBuf],
     runs: &[(Run, ComparedRun)],
@@ -77,7 +77,7 @@ fn check_comparable(
     Ok(())
 }
 
-/// Runs that differ only in their seeds together, called by what tells them from the others.
+/// Groups runs that differ only in their seeds, each group named by what tells it from the others.
 fn groups(runs: Vec<(Run, ComparedRun)>) -> Vec<Group> {
     let kinds: Vec<Vec<(&str, String)>> = runs.iter().map(|(run, _)| traits(run)).collect();
     let told_apart: Vec<usize> =
@@ -97,7 +97,7 @@ fn groups(runs: Vec<(Run, ComparedRun)>) -> Vec<Group> {
     groups.into_iter().map(|(_, group)| group).collect()
 }
 
-/// What decides how a run goes, but for its seed.
+/// Returns what decides how a run goes, without its seed.
 fn traits(run: &Run) -> Vec<(&'static str, String)> {
     let (goal, method) = (&run.goal, &run.method);
     let inputs: Vec<&str> = run.inputs.iter().map(|input| input.name.as_str()).collect();

@@ -10,23 +10,30 @@ use crate::dataset::Dataset;
 use crate::program::Program;
 use crate::run::Run;
 
-/// Roughness of the spheres, and pixels across each, where nothing else is asked for.
+/// The usual roughness of each column of spheres.
 pub const ROUGHNESSES: [f32; 6] = [0.05, 0.2, 0.4, 0.6, 0.8, 1.0];
+/// The usual width of a sphere's square, in pixels.
 pub const SIZE: u16 = 200;
 
-/// What is to be drawn, of which only the formula is missing.
+/// The settings of a picture of spheres, without the formula.
 pub struct Drawing<'a> {
+    /// The run that the formula is of.
     pub run: &'a Run,
+    /// The run's columns.
     pub dataset: &'a Dataset,
+    /// The surroundings that light the spheres.
     pub environment: Environment,
+    /// The settings of each sphere; `roughness` replaces theirs.
     pub settings: Settings,
+    /// The roughness of each column of spheres.
     pub roughness: &'a [f32],
+    /// The width of a sphere's square, in pixels.
     pub size: usize,
 }
 
 impl Drawing<'_> {
-    /// The picture, with labels if there is a theme, and how much displayed colours differ: the root mean square
-    /// over all spheres, channels in [0, 1].
+    /// Returns the picture as a PNG, with labels if there is a theme, and the root mean square of
+    /// displayed differences over all spheres, channels in [0, 1].
     ///
     /// # Errors
     /// [`Error::NoSphere`]; [`Error::Plot`].

@@ -1,4 +1,4 @@
-//! Why a page or a picture was not made.
+//! Errors of pages and pictures.
 
 use super::plot::PlotError;
 use crate::grammar::FileError;
@@ -6,6 +6,7 @@ use crate::run::{RecordError, SubjectError};
 
 /// A page or a picture that was not made.
 #[derive(Debug, thiserror::Error)]
+#[allow(missing_docs, reason = "each message names its fields")]
 pub enum Error {
     /// The run's folder, or what is written into it.
     #[error(transparent)]
@@ -19,10 +20,10 @@ pub enum Error {
     /// A picture.
     #[error(transparent)]
     Plot(#[from] PlotError),
-    /// Columns of which no sphere is known, or samples that do not tell the truth in between.
+    /// Columns without a known material, or samples that do not tell the truth in between.
     #[error("{run}: {reason}")]
     NoSphere { run: String, reason: String },
-    /// Without the dataset there is nothing to measure on.
+    /// The dataset, which formulas are timed on, is missing.
     #[error("formulas are timed on the dataset, which is not there")]
     NoData,
     /// No runs.

@@ -7,10 +7,11 @@ use super::raster::{Colour, Inks, Raster};
 use crate::dataset::{Dataset, Split};
 use crate::program::format_constant;
 
-/// By so much is a difference's colour that of a smaller one on the values' scale.
+/// The magnification of differences in maps: a difference has the colour of a value this many times
+/// as large. By hand, unmeasured.
 pub const DIFFERENCE_TIMES: f32 = 3.0;
 
-/// The plane of a grid's first two inputs: the middle of all others.
+/// The plane of a grid's first two inputs, through the middle of all others.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Plane {
     /// Points across and up.
@@ -20,7 +21,7 @@ pub struct Plane {
 }
 
 impl Plane {
-    /// Nothing if the split is no grid or has but one input.
+    /// Returns none if the split is no grid or has only one input.
     pub fn of(split: &Split) -> Option<Plane> {
         let [across, up, others @ ..] = split.grid.as_slice() else { return None };
         let below: usize = others.iter().product();
@@ -31,7 +32,7 @@ impl Plane {
         Some(Plane { points: [*across, *up], rows: cells.map(row).collect() })
     }
 
-    /// A column of the split on the plane.
+    /// Returns a column of the split on the plane.
     pub fn column(&self, values: &[f32]) -> Vec<f32> {
         self.rows.iter().map(|&row| values[row]).collect()
     }
@@ -40,23 +41,28 @@ impl Plane {
 /// A picture of maps.
 #[derive(Clone, Debug)]
 pub struct Maps {
+    /// The first line of the heading.
     pub title: String,
+    /// The second line of the heading.
     pub subtitle: String,
-    /// What each column shows, in two lines; the last is the truth.
+    /// The two-line titles of the columns; the last column is the truth.
     pub columns: Vec<[String; 2]>,
+    /// The points that are drawn.
     pub plane: Plane,
+    /// The maps of each output.
     pub outputs: Vec<OutputMaps>,
 }
 
 /// The maps of one output.
 #[derive(Clone, Debug)]
 pub struct OutputMaps {
+    /// The output's name.
     pub name: String,
-    /// By column, values on the plane.
+    /// By column, the values on the plane.
     pub columns: Vec<Vec<f32>>,
 }
 
-/// What a plane's axes are, in words.
+/// Describes a plane's axes.
 pub fn axes(dataset: &Dataset) -> String {
     let names: Vec<&str> = dataset.inputs.iter().map(|input| input.name.as_str()).collect();
     let [across, up, others @ ..] = names.as_slice() else { return String::new() };
@@ -73,12 +79,12 @@ const SIDE: usize = 24;
 const HEADING: usize = 84;
 const BLOCK_HEADING: usize = 72;
 const BAR: usize = 44;
-/// Between the maps of two outputs.
+/// Pixels between the maps of two outputs.
 const APART: usize = 32;
 
-/// The maps as a PNG: for each output a row of values above a row of differences, each with its scale:
-/// that of differences ends where a [`DIFFERENCE_TIMES`]th of the values' range is; outputs beside each
-/// other, two to a line.
+/// Returns the maps as a PNG: for each output a row of values above a row of differences, each with
+/// its scale, that of differences ending at a [`DIFFERENCE_TIMES`]th of the values' range. Two
+/// outputs stand side by side.
 ///
 /// # Errors
 /// Those of encoding.
@@ -135,7 +141,7 @@ fn block(
     }
 }
 
-/// What values are divided by.
+/// Returns the range that values are divided by.
 fn span(low: f32, high: f32) -> f32 {
     (high - low).max(f32::MIN_POSITIVE)
 }
@@ -144,13 +150,13 @@ fn difference_colour(difference: f32, span: f32) -> Colour {
     viridis(DIFFERENCE_TIMES * difference / span)
 }
 
-/// What colours stand for, of values between two ends: themselves above, differences below.
+/// Returns the scales of colours for values between two ends: of values, then of differences.
 fn scales(low: f32, high: f32) -> [(&'static str, [f32; 2]); 2] {
     let most = span(low, high) / DIFFERENCE_TIMES;
     [("values", [low, high]), ("left: |difference| from the truth", [0.0, most])]
 }
 
-/// A scale of colours, with what its ends stand for.
+/// Draws a scale of colours with the values at its ends.
 fn bar(raster: &mut Raster, (left, top): (usize, usize), [low, high]: [f32; 2], inks: &Inks) {
     for x in 0..PANEL {
         for y in 0..10 {
@@ -166,7 +172,7 @@ fn bar(raster: &mut Raster, (left, top): (usize, usize), [low, high]: [f32; 2], 
     raster.write(&high, small, inks.faint, (right, top + 26), PANEL / 2);
 }
 
-/// Three significant digits, without zeros at the end.
+/// Formats three significant digits, without zeros at the end.
 fn end_text(value: f32) -> String {
     format_constant(format!("{value:.2e}").parse().unwrap_or(value))
 }
@@ -186,7 +192,8 @@ fn panel(
     }
 }
 
-/// Viridis (van der Walt and Smith, 2015) at ninths, linear between; what is not finite is grey.
+/// Returns a colour of Viridis (van der Walt and Smith, 2015), from ninths with linear
+/// interpolation; grey if `place` is not finite.
 fn viridis(place: f32) -> Colour {
     const STOPS: [Colour; 10] = [
         [0x44, 0x01, 0x54],

@@ -1,6 +1,21 @@
-//! What a person looks at: the page of a run and the pictures beside it, maps, spheres.
+//! Reports: the page of a run and the pictures beside it, maps, spheres.
 //!
-//! A [`Report`] is made of a search that has just ended, or of its folder, and written by one function.
+//! A [`Report`] is made of a search that has just ended, or of its folder, and written by one
+//! function.
+//!
+//! ```no_run
+//! use lgp::deadline::Deadline;
+//! use lgp::report::Report;
+//! use std::path::Path;
+//! let folder = Path::new("runs/dfg");
+//! let (mut report, problem) = Report::load(folder, None)?;
+//! if let Some(problem) = problem {
+//!     eprintln!("no maps: {problem}");
+//! }
+//! report.judge();
+//! report.write(folder, &Deadline::default())?;
+//! # Ok::<(), lgp::report::Error>(())
+//! ```
 
 mod comparison;
 mod drawing;
@@ -29,35 +44,39 @@ use crate::search::{Front, ScoredIncumbent};
 use std::path::Path;
 use std::sync::Arc;
 
-/// The page of a run.
+/// The file name of a run's page.
 pub const PAGE: &str = "report.html";
 
-/// A run, and what is shown of it.
+/// The report of a run.
 #[derive(Clone, Debug)]
 pub struct Report {
+    /// The record of the run.
     pub run: Run,
+    /// The front in the measure that was minimised.
     pub front: Front,
+    /// The front in maximum error.
     pub minimax: Front,
     /// The run's columns, if the data are still what they were.
     pub dataset: Option<Arc<Dataset>>,
+    /// The incumbents, scored.
     pub published: Vec<ScoredIncumbent>,
-    /// How the search went on, if that was recorded.
+    /// The progress of the search, if it was recorded.
     pub trace: Option<Trace>,
-    /// What evaluations take on some processors, if that was measured.
+    /// The time of evaluations on some processors, if it was measured.
     pub timings: Vec<Timing>,
 }
 
-/// What was written.
+/// A report that was written.
 #[derive(Clone, Copy, Debug)]
 pub struct Written {
-    /// Bytes of the page.
+    /// The size of the page, in bytes.
     pub bytes: usize,
-    /// Whether there was time for all pictures.
+    /// True if there was time for all pictures.
     pub is_whole: bool,
 }
 
 impl Report {
-    /// Of a search that has just ended.
+    /// Returns the report of a search that has just ended.
     pub fn of(outcome: &Outcome, dataset: Arc<Dataset>, published: Vec<ScoredIncumbent>) -> Report {
         let Outcome { run, front, minimax, trace, .. } = outcome.clone();
         let trace = Some(Trace::parse(&trace).expect("as it was just written"));
@@ -65,8 +84,8 @@ impl Report {
         Report { run, front, minimax, dataset, published, trace, timings: Vec::new() }
     }
 
-    /// Of a run's folder, the dataset at `elsewhere` if that is given. Without its dataset a report has no maps:
-    /// then it comes with what is wrong.
+    /// Loads the report of a run's folder, with the dataset at `elsewhere` if that is given.
+    /// Without its dataset a report has no maps: it is returned with what is wrong.
     ///
     /// # Errors
     /// [`Error`]: no run there; another dataset elsewhere.
@@ -99,7 +118,7 @@ impl Report {
         Ok((report, problem))
     }
 
-    /// Finds out what can be proved of its formulas, unless that is known.
+    /// Judges the formulas that have no verdict yet.
     pub fn judge(&mut self) {
         let questions = self.run.questions();
         for front in [&mut self.front, &mut self.minimax] {
@@ -107,11 +126,11 @@ impl Report {
         }
     }
 
-    /// Writes the page and the pictures into a run's folder, verdicts as they are; past the deadline no more
-    /// pictures.
+    /// Writes the page and the pictures into a run's folder, verdicts as they are; no more pictures
+    /// after the deadline.
     ///
     /// # Errors
-    /// [`Error::Record`] where something cannot be written; [`Error::Plot`].
+    /// [`Error::Record`] if something cannot be written; [`Error::Plot`].
     pub fn write(&self, folder: &Path, deadline: &Deadline) -> Result<Written, Error> {
         let html = page::html(&model::page(self)?);
         let is_whole = pictures::write(self, folder, deadline)?;

@@ -1,4 +1,4 @@
-//! What the page of a run shows.
+//! The contents of a run's page.
 
 use super::page::{self, Code, CostAxis, Formula, Page, PageFront, PageSpheres, SampleTable};
 use super::timing::Timing;
@@ -13,7 +13,7 @@ use crate::run::{self, Run};
 use crate::search::{Front, FrontMember, ScoredIncumbent};
 use crate::wording::{axis_title, cut};
 
-/// The page.
+/// Returns the page of a report.
 pub(super) fn page(report: &Report) -> Result<Page, Error> {
     let Report { run, front, minimax, dataset, published, trace, timings } = report;
     let (profiles, own) = profiles(run)?;
@@ -44,7 +44,7 @@ pub(super) fn page(report: &Report) -> Result<Page, Error> {
     })
 }
 
-/// The GPUs that come with the program and that of the run, and its place among them.
+/// Returns the built-in GPU profiles and the run's own, and the index of the run's.
 fn profiles(run: &Run) -> Result<(Vec<Profile>, usize), Error> {
     let mut profiles = Profile::built_in().map(Profile::find).collect::<Result<Vec<_>, _>>()?;
     let as_built_in = |profile: &Profile| {
@@ -58,7 +58,7 @@ fn profiles(run: &Run) -> Result<(Vec<Profile>, usize), Error> {
             profiles.push(profile);
             profiles.len() - 1
         }
-        // An older version's record has only the name of a file.
+        // The record of an older version has only a file's name.
         (None, None) => 0,
     };
     Ok((profiles, own))
@@ -74,7 +74,7 @@ fn nanoseconds(timing: &Timing) -> CostAxis {
     CostAxis { name, description, unit: "ns an evaluation" }
 }
 
-/// What formulas are priced by.
+/// The profiles and timings that price formulas.
 struct Priced<'a> {
     run: &'a Run,
     profiles: &'a [Profile],
@@ -111,7 +111,7 @@ impl Priced<'_> {
         }
     }
 
-    /// By language, without the header.
+    /// Returns the code in each language, without the header.
     fn code(&self, program: &Program) -> Vec<Code> {
         let names = self.run.names();
         let snippet = Snippet { program, names: &names, function: &self.run.name, header: &[] };
@@ -179,7 +179,7 @@ fn facts(run: &Run, dataset: Option<&Dataset>) -> Vec<(String, String)> {
     facts
 }
 
-/// A word as a shell takes it.
+/// Quotes a word for a shell.
 fn quoted(word: &str) -> String {
     let plain = |c: char| c.is_ascii_alphanumeric() || "-_./=,:+@%".contains(c);
     match !word.is_empty() && word.chars().all(plain) {

@@ -1,4 +1,4 @@
-//! The pictures beside a page: the front, maps, spheres, how the search went on.
+//! The pictures beside a page: front, maps, spheres, progress.
 
 use super::maps::{self, Maps, OutputMaps, Plane};
 use super::plot::{self, FrontPlot, Line, LinePlot, Theme};
@@ -13,10 +13,10 @@ use crate::search::{Front, FrontMember, ScoredIncumbent};
 use crate::wording::{axis_title, cycles_text, error_text};
 use std::path::Path;
 
-/// Pixels: what a README shows, at twice the density.
+/// The width of pictures, in pixels: what a README shows, at twice the density.
 const WIDTH: u32 = 1600;
 
-/// Says whether there was time for all.
+/// Writes the pictures; returns true if there was time for all.
 pub(super) fn write(report: &Report, folder: &Path, deadline: &Deadline) -> Result<bool, Error> {
     let Report { run, front, dataset, published, trace, .. } = report;
     write_plots(folder, run, front, published)?;
@@ -45,14 +45,14 @@ pub(super) fn write(report: &Report, folder: &Path, deadline: &Deadline) -> Resu
         size: SIZE.into(),
     };
     let name = format!("formula, {} cycles on {}", cycles_text(knee.cost), run.gpu);
-    // Most columns have no scene.
+    // For most columns no material is known.
     if let Ok((png, _)) = drawing.png(&knee.program, &name, Some(Theme::Light)) {
         write_file(folder, "spheres.png", &png)?;
     }
     Ok(true)
 }
 
-/// The front as a picture, in its measure.
+/// Draws the front in its measure.
 pub fn write_plots(
     folder: &Path,
     run: &Run,
@@ -89,7 +89,7 @@ fn write_convergence(report: &Report, trace: &Trace, folder: &Path) -> Result<()
         points: trace.seconds.iter().copied().zip(errors.iter().copied()).collect(),
         bounds: Vec::new(),
     };
-    // As many as there are colours to tell them by.
+    // As many lines as there are colours to tell them apart.
     let every = trace.costs.len().div_ceil(7).max(1);
     let lines: Vec<Line> = trace.costs.iter().zip(&trace.errors).step_by(every).map(line).collect();
     let run = &report.run;
@@ -109,7 +109,7 @@ fn write_convergence(report: &Report, trace: &Trace, folder: &Path) -> Result<()
     write_file(folder, "convergence-dark.svg", dark.as_bytes())
 }
 
-/// The most accurate of the published formulas, the knee, and the truth.
+/// Returns maps of the most accurate published formula, the knee, and the truth.
 fn maps(report: &Report, dataset: &Dataset, knee: &FrontMember) -> Option<Maps> {
     let plane = Plane::of(&dataset.search)?;
     let inputs = dataset.inputs.len();

@@ -1,4 +1,4 @@
-//! Pixels, for pictures that are no lines.
+//! Pixels of pictures that are not made of lines.
 
 use super::plot::text::Face;
 use super::plot::{PlotError, Theme, encode};
@@ -11,7 +11,7 @@ pub(super) struct Raster {
     pixels: Vec<u8>,
 }
 
-/// What a theme's pictures are written with.
+/// The colours of a theme's text.
 pub(super) struct Inks {
     pub paper: Colour,
     pub ink: Colour,
@@ -33,7 +33,7 @@ impl Raster {
         Raster { width, height, pixels: paper.repeat(width * height) }
     }
 
-    /// Mixes a colour in; beyond the edges nothing is drawn.
+    /// Mixes a colour in; does nothing beyond the edges.
     pub(super) fn blend(&mut self, x: usize, y: usize, colour: Colour, coverage: f32) {
         if x >= self.width || y >= self.height {
             return;
@@ -45,7 +45,7 @@ impl Raster {
         }
     }
 
-    /// The width of what fits is what is left of the raster, unless less is asked for.
+    /// Writes text, as much as fits into the given width and the raster.
     pub(super) fn write(
         &mut self,
         text: &str,
@@ -63,7 +63,7 @@ impl Raster {
         });
     }
 
-    /// The bytes of a PNG file.
+    /// Returns the bytes of a PNG file.
     pub(super) fn png(&self) -> Result<Vec<u8>, PlotError> {
         encode(&self.pixels, self.width as u32, self.height as u32)
     }

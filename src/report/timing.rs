@@ -1,5 +1,5 @@
-//! What an evaluation takes on a processor, measured once and kept beside the run: the page is made
-//! of what is kept, so that it stays the same.
+//! The time of an evaluation on a processor, measured once and kept beside the run: the page is
+//! made of what is kept, so that it stays the same.
 
 use super::{Error, Report, write_file};
 use crate::dataset::{LARGEST_TEXT, read_text};
@@ -13,27 +13,30 @@ use std::time::{Duration, Instant};
 
 const FILE: &str = "timing.json";
 
-/// Spent on each formula.
+/// The time spent on each formula. By hand, unmeasured.
 const SPENT: Duration = Duration::from_millis(30);
 
-/// Nanoseconds that an evaluation takes on a device, by formula text.
+/// The time of evaluations on a device, by formula text.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Timing {
+    /// The processor's name.
     pub device: String,
-    /// How it was measured.
+    /// The method of measurement.
     pub method: String,
+    /// Nanoseconds by formula text.
     pub ns: BTreeMap<String, f64>,
 }
 
 impl Timing {
+    /// Returns the nanoseconds of a formula, if it was measured.
     pub fn of(&self, formula: &str) -> Option<f64> {
         self.ns.get(formula).copied()
     }
 }
 
 impl Report {
-    /// Measures all formulas on this processor, by the interpreter on one thread, and writes the file;
-    /// what it holds of other devices stays.
+    /// Measures all formulas on this processor, by the interpreter on one thread, and writes the
+    /// file; what it holds of other devices stays.
     ///
     /// # Errors
     /// [`Error::NoData`]; [`Error::Record`].
@@ -59,7 +62,7 @@ fn measured(report: &Report) -> Result<Timing, Error> {
         ns: all
             .map(|member| {
                 let ns = nanoseconds(&member.program, &samples, &mut evaluator);
-                // Four digits, which is more than is known.
+                // Four digits are more than is known.
                 (member.formula.clone(), format!("{ns:.3e}").parse().unwrap_or(ns))
             })
             .collect(),
@@ -78,7 +81,7 @@ fn nanoseconds(program: &Program, samples: &Samples, evaluator: &mut Evaluator) 
     1e9 * shortest / samples.rows() as f64
 }
 
-/// What was measured before; nothing where there is no file.
+/// Loads earlier measurements; none if there is no file.
 pub(super) fn load(folder: &Path) -> Result<Vec<Timing>, Error> {
     let path = folder.join(FILE);
     if !path.exists() {

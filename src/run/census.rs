@@ -1,6 +1,6 @@
-//! Which inputs and subexpressions recur in formulas: what a search says of its data (Pesce &
-//! Iwanicki 2015, §5: variables that are rarely used may not matter, subexpressions that are
-//! often present may be a change of variable that the data calls for).
+//! The inputs and subexpressions that recur in formulas, which say something of the data (Pesce &
+//! Iwanicki 2015, §5: variables that are rarely used may not matter, subexpressions that are often
+//! present may be a change of variable that the data calls for).
 
 use super::folder::{CENSUS, load_text};
 use super::{RecordError, Run};
@@ -13,10 +13,10 @@ use serde::{Deserialize, Serialize};
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;
 
-/// Subexpressions of more operations, written out as trees, are not looked at.
+/// The most operations of a subexpression that is counted, as a tree. By hand, unmeasured.
 const MAX_OPERATIONS: u32 = 8;
 
-/// Subexpressions that are kept on disk.
+/// The most subexpressions that are kept on disk. By hand, unmeasured.
 const MAX_KEPT: usize = 1000;
 
 /// Counts of formulas by the inputs and subexpressions that they contain.
@@ -24,7 +24,7 @@ const MAX_KEPT: usize = 1000;
 pub struct Census {
     formulas: u64,
     inputs: Vec<u64>,
-    /// By structural hash, constants ignored.
+    /// Subexpressions by structural hash, constants ignored.
     expressions: BTreeMap<u64, Found>,
 }
 
@@ -34,7 +34,7 @@ struct Found {
     operations: u32,
     count: u64,
     first: f64,
-    /// Subexpressions in which this one is an argument.
+    /// Subexpressions that have this one as an argument.
     within: BTreeSet<u64>,
 }
 
@@ -43,28 +43,28 @@ struct Found {
 pub struct Recurring {
     /// Formula text, each constant written `c`.
     pub expression: String,
-    /// Operations of the tree.
+    /// The operations of the tree.
     pub operations: u32,
-    /// Formulas that contain it.
+    /// The number of formulas that contain it.
     pub count: u64,
-    /// The share of all formulas.
+    /// The share of all formulas, in [0, 1].
     pub share: f64,
     /// When it was first seen, in seconds.
     pub first: f64,
 }
 
 impl Census {
-    /// Formulas that were counted.
+    /// Returns the number of formulas that were counted.
     pub fn formulas(&self) -> u64 {
         self.formulas
     }
 
-    /// For each input, how many formulas use it.
+    /// Returns how many formulas use each input.
     pub fn inputs(&self) -> &[u64] {
         &self.inputs
     }
 
-    /// Counts a formula, seen after some seconds.
+    /// Counts a formula that was seen after some seconds.
     ///
     /// # Panics
     /// If `names` does not have a name for each input.
@@ -98,8 +98,8 @@ impl Census {
         }
     }
 
-    /// The subexpressions that at least two formulas contain, the most frequent first; not those
-    /// that occur only within a larger one, nor those that only move or scale another.
+    /// Returns the subexpressions that at least two formulas contain, the most frequent first; not
+    /// those that occur only within a larger one, nor those that only move or scale another.
     pub fn recurring(&self) -> Vec<Recurring> {
         let count = |hash: &u64| self.expressions.get(hash).map_or(0, |found| found.count);
         let own = |found: &&Found| {
@@ -125,7 +125,7 @@ impl Census {
         recurring
     }
 
-    /// How often a subexpression of that text occurs, and when it first did.
+    /// Finds the counted subexpression of that text.
     pub fn find(&self, expression: &str) -> Option<Recurring> {
         let found = self.expressions.values().find(|found| found.expression == expression)?;
         Some(Recurring {
@@ -137,7 +137,7 @@ impl Census {
         })
     }
 
-    /// The most frequent subexpressions, as they are kept on disk.
+    /// Keeps the most frequent subexpressions, as on disk.
     pub(super) fn pruned(mut self) -> Census {
         let mut counts: Vec<u64> = self.expressions.values().map(|found| found.count).collect();
         counts.sort_unstable_by(|a, b| b.cmp(a));
@@ -146,12 +146,15 @@ impl Census {
         self
     }
 
-    /// The text of `census.json`: the most frequent subexpressions.
+    /// Returns the text of `census.json`: the most frequent subexpressions.
     pub fn to_json(&self) -> String {
         serde_json::to_string(&self.clone().pruned()).expect("plain data") + "\n"
     }
 
-    /// Reads `census.json` of a run's folder; nothing where there is none.
+    /// Reads `census.json` from a run's folder; none if there is no such file.
+    ///
+    /// # Errors
+    /// If it cannot be read, or is not the run's.
     pub fn load(folder: &Path, run: &Run) -> Result<Option<Census>, RecordError> {
         let Some(text) = load_text(folder, run, CENSUS)? else { return Ok(None) };
         let damaged =
@@ -162,7 +165,7 @@ impl Census {
         Ok(Some(census))
     }
 
-    /// Whether formulas of so many inputs could have been counted so.
+    /// Checks that formulas of so many inputs could have been counted so.
     pub(super) fn check(&self, inputs: usize) -> Result<(), String> {
         let counts = self.inputs.iter().chain(self.expressions.values().map(|one| &one.count));
         if self.inputs.len() > inputs || counts.into_iter().any(|count| *count > self.formulas) {
@@ -183,9 +186,9 @@ fn arguments(draft: &Draft) -> impl Iterator<Item = Arg> {
     instrs.chain(draft.outputs.iter().copied())
 }
 
-/// Effective code in which signs have gone into constants where they can (`x − c` is `x + c`, and
-/// `y − c·x` is `y + c·x`), and operands that commute have an order: constants first in products,
-/// last elsewhere.
+/// Returns effective code with signs moved into constants where they can be (`x − c` is `x + c`,
+/// and `y − c·x` is `y + c·x`), and commuting operands in order: constants first in products, last
+/// elsewhere.
 fn canonical(formula: &Draft) -> Draft {
     let mut draft = Draft::default();
     effective_into(formula, &mut draft, &mut Vec::new());
@@ -220,7 +223,7 @@ fn is_constant(arg: &Arg) -> bool {
     matches!(arg, Arg::Const(_))
 }
 
-/// What an instruction only moves or scales by constants.
+/// Returns the argument that an instruction only moves or scales by constants.
 fn moved(instr: &Instr) -> Option<Arg> {
     let arithmetic = [Op::Add, Op::Sub, Op::Mul, Op::Div, Op::Neg];
     let mut others = instr.args().iter().filter(|arg| !is_constant(arg));
@@ -228,7 +231,7 @@ fn moved(instr: &Instr) -> Option<Arg> {
     other.filter(|_| others.next().is_none()).copied()
 }
 
-/// The instruction whose result an argument is, perhaps moved and scaled.
+/// Returns the instruction whose result an argument is, perhaps moved and scaled.
 fn unmoved(draft: &Draft, arg: Arg) -> Option<usize> {
     let Arg::Result(i) = arg else { return None };
     match moved(&draft.instrs[usize::from(i)]) {
@@ -237,7 +240,7 @@ fn unmoved(draft: &Draft, arg: Arg) -> Option<usize> {
     }
 }
 
-/// Operations of each instruction's result, written out as a tree.
+/// Counts the operations of each instruction's result, written out as a tree.
 fn tree_operations(draft: &Draft) -> Vec<u32> {
     let mut operations: Vec<u32> = Vec::with_capacity(draft.instrs.len());
     for instr in &draft.instrs {
@@ -251,7 +254,7 @@ fn tree_operations(draft: &Draft) -> Vec<u32> {
     operations
 }
 
-/// An instruction's result as text, each constant written `c`.
+/// Returns an instruction's result as text, each constant written `c`.
 fn expression(draft: &Draft, i: usize, names: &Names) -> String {
     let whole = Draft { outputs: vec![Arg::Result(i as u16)], ..draft.clone() };
     let mut part = Draft::default();

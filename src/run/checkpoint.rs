@@ -1,10 +1,10 @@
-//! `checkpoint.bin`: all that a search goes on with, in one file, so that no two of its parts can be of
-//! different moments.
+//! `checkpoint.bin`: all that a search needs to go on, in one file, so that its parts are always of
+//! one moment.
 //!
 //! A line of text says which program wrote it, as `LGPSTATE6 lgp 0.1.0`; then come the parts, in
-//! postcard's encoding, and a checksum over all before it. The encoding does not describe itself, and
-//! random streams and rules of a search may change from version to version: a checkpoint is read by the
-//! version that wrote it, and by [`LAYOUT`] alone.
+//! postcard's encoding, and a checksum of all before it. The encoding does not describe itself, and
+//! random streams and rules of a search may change between versions, so a checkpoint is read only
+//! by the version that wrote it, and by [`LAYOUT`] alone.
 
 use super::folder::read_bytes;
 use super::{Census, RecordError, Run, Trace, trace_csv};
@@ -13,25 +13,30 @@ use crate::search::State;
 use serde::{Deserialize, Serialize};
 use std::path::Path;
 
-/// To be raised whenever what is serialised of a search changes: `tests/checkpoint.rs` tells.
+/// The layout's number, raised whenever what is serialised of a search changes:
+/// `tests/checkpoint.rs` tells.
 const LAYOUT: u32 = 7;
 
 const MAGIC: &str = "LGPSTATE";
 
-/// The most bytes that are read.
+/// The largest checkpoint that is read, in bytes: a bound on memory where the file is no
+/// checkpoint.
 const MAX_BYTES: u64 = 2 << 30;
 
-/// How far a search came, and what is known of its run so far.
+/// The state of a search, and the record of its run so far.
 #[derive(Clone, Debug)]
 pub struct Checkpoint {
+    /// The record of the run.
     pub run: Run,
+    /// The state of the search.
     pub state: State,
     /// The text of `trace.csv` so far.
     pub trace: String,
+    /// What recurs in its formulas so far.
     pub census: Census,
 }
 
-/// What follows the line of text: the run as RON, which leaves out and fills in fields, and the others.
+/// The parts after the line of text; the run is RON, which can leave out and fill in fields.
 #[derive(Serialize)]
 struct Written<'a>(&'a str, &'a str, &'a Census, &'a State);
 
@@ -43,7 +48,7 @@ fn first_line() -> String {
 }
 
 impl Checkpoint {
-    /// The content of `checkpoint.bin`; `trace` is the text of `trace.csv`.
+    /// Returns the content of `checkpoint.bin`; `trace` is the text of `trace.csv`.
     pub fn bytes(run: &Run, state: &State, trace: &str, census: &Census) -> Vec<u8> {
         let mut bytes = first_line().into_bytes();
         let body = Written(&run.to_ron(), trace, &census.clone().pruned(), state);
@@ -53,7 +58,7 @@ impl Checkpoint {
         bytes
     }
 
-    /// The same of what was read.
+    /// Returns the content of the file that this was read from.
     pub fn to_bytes(&self) -> Vec<u8> {
         let Checkpoint { run, state, trace, census } = self;
         Checkpoint::bytes(run, state, trace, census)
@@ -110,7 +115,7 @@ impl Checkpoint {
     }
 }
 
-/// A trace goes on with lines under the same header; one that was not begun is empty.
+/// Checks that a trace is empty, or has the header that its next lines need.
 fn check_trace(trace: &str, measure: Measure) -> Result<(), String> {
     if trace.is_empty() {
         return Ok(());

@@ -1,4 +1,4 @@
-//! A record that is read is held to the rules of what is typed: whoever has it can rely on them, wherever the
+//! Checks of a record that was read: its values obey the same rules as typed ones, wherever the
 //! file came from.
 
 use super::Run;
@@ -7,8 +7,8 @@ use crate::search::not_negative;
 use std::path::Path;
 
 impl Run {
-    /// Whether a search could have left this: columns as a dataset has them, settings within their
-    /// bounds, requirements of columns that there are, finite times.
+    /// Checks that a search could have left this record: columns as a dataset has them, settings
+    /// within their bounds, requirements on existing columns, finite times.
     ///
     /// # Errors
     /// The first violation found, with the name of its field.

@@ -1,9 +1,10 @@
-//! Why a run's folder could not be read or written.
+//! Errors of reading and writing a run's folder.
 
 use std::path::PathBuf;
 
 /// A run's folder that cannot be read or written.
 #[derive(Debug, thiserror::Error)]
+#[allow(missing_docs, reason = "each message names its fields")]
 pub enum RecordError {
     #[error("{path}: cannot be read: {reason}")]
     Unreadable { path: PathBuf, reason: std::io::Error },

@@ -31,19 +31,24 @@ use std::io::{Read, Write};
 use std::path::{Path, PathBuf};
 use std::time::{Duration, SystemTime, UNIX_EPOCH};
 
+/// The record of a run.
 pub(crate) const RUN: &str = "run.ron";
+/// The state of a search that has not ended.
 pub const CHECKPOINT: &str = "checkpoint.bin";
-/// The front in the measure that was searched for, and in maximum error.
+/// The front in the measure that was searched for.
 pub const FRONT: &str = "front.json";
+/// The front in maximum error.
 pub(crate) const MINIMAX_FRONT: &str = "front-max.json";
+/// The progress of the search.
 pub(crate) const TRACE: &str = "trace.csv";
+/// What recurs in its formulas.
 pub(crate) const CENSUS: &str = "census.json";
 const LOCK: &str = "lock";
 const SNIPPETS: &str = "snippets";
 /// The front as a table.
 pub const FRONT_TABLE: &str = "front.txt";
 
-/// What the page and pictures of a run are called.
+/// The files of a page, tables and pictures of a run.
 const MADE_OF_IT: [&str; 11] = [
     FRONT_TABLE,
     "front.svg",
@@ -58,10 +63,10 @@ const MADE_OF_IT: [&str; 11] = [
     "report.html",
 ];
 
-/// The most bytes that are read of a text file.
+/// The largest text file that is read, in bytes: a bound on memory where the file is no run's.
 const MAX_BYTES: u64 = 256 << 20;
 
-/// What a folder holds.
+/// The contents of a folder.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Holding {
     /// No run; perhaps other files.
@@ -73,6 +78,7 @@ pub enum Holding {
 }
 
 impl Holding {
+    /// Looks at the files of a folder, which need not exist.
     pub fn of(folder: &Path) -> Holding {
         let holds = |file: &str| folder.join(file).exists();
         match (holds(RUN), holds(FRONT), holds(CHECKPOINT)) {
@@ -83,7 +89,8 @@ impl Holding {
     }
 }
 
-/// A file of a folder that holds no run, called as a run's files are, and so in the way of one.
+/// Returns a file that is called as a run's files are in a folder that holds no run, and so is in
+/// the way of one.
 pub fn in_the_way(folder: &Path) -> Option<String> {
     let names = MADE_OF_IT.into_iter().chain(IDENTIFIED);
     let mut there = names.filter(|file| folder.join(file).exists()).map(str::to_owned);
@@ -98,7 +105,7 @@ pub struct Folder {
 }
 
 impl Outcome {
-    /// Its files, by name, but for `run.ron`.
+    /// Returns the run's files by name, without `run.ron`.
     pub(super) fn files(&self) -> Vec<(String, Vec<u8>)> {
         let mut files = front_files(&self.run, &self.front, &self.minimax);
         files.push((TRACE.to_owned(), self.trace.clone().into_bytes()));
@@ -107,7 +114,7 @@ impl Outcome {
     }
 }
 
-/// The files of both fronts: as they are read again, and as functions to paste.
+/// Returns the files of both fronts: as they are read again, and as functions to paste.
 pub fn front_files(run: &Run, front: &Front, minimax: &Front) -> Vec<(String, Vec<u8>)> {
     let names = run.names();
     let mut files = vec![
@@ -124,8 +131,8 @@ pub fn front_files(run: &Run, front: &Front, minimax: &Front) -> Vec<(String, Ve
 }
 
 impl Folder {
-    /// Makes the folder if there is none, and becomes its owner; what a killed process has left
-    /// half-written is removed.
+    /// Makes the folder if there is none, becomes its owner, and removes what a killed process has
+    /// left half-written.
     ///
     /// # Errors
     /// [`RecordError::Busy`] if it has an owner; [`RecordError::Unwritable`].
@@ -137,6 +144,7 @@ impl Folder {
         Ok(folder)
     }
 
+    /// Returns the folder's path.
     pub fn path(&self) -> &Path {
         &self.path
     }
@@ -150,11 +158,11 @@ impl Folder {
         replace_file(&path, bytes).map_err(unwritable(&path))
     }
 
-    /// Removes the run that is there, and nothing else, the file that says that it is whole first; and puts
-    /// the checkpoint of another in its place.
+    /// Removes the run that is there, and nothing else, beginning with the file that says that it
+    /// is whole; then writes the checkpoint of another.
     ///
     /// # Errors
-    /// [`RecordError::Unwritable`]: where the checkpoint could not be written, all is as it was.
+    /// [`RecordError::Unwritable`]: if the checkpoint could not be written, all is as it was.
     pub(crate) fn begin_anew(&self, checkpoint: &[u8]) -> Result<(), RecordError> {
         let snippets = snippets_in(&self.path);
         let path = self.path.join(CHECKPOINT);
@@ -165,11 +173,11 @@ impl Folder {
         staged.put_in_place().map_err(unwritable(&path))
     }
 
-    /// Exchanges the run's files for others, which are all written first: `files` by name, and `run.ron`.
-    /// What was made of the old ones and is not written again is removed.
+    /// Exchanges the run's files for others, which are all written first: `files` by name, and
+    /// `run.ron`. What was made of the old ones and is not written again is removed.
     ///
     /// # Errors
-    /// [`RecordError::Unwritable`]: where a file could not be written, all are as they were; where one
+    /// [`RecordError::Unwritable`]: if a file could not be written, all are as they were; if one
     /// could not be removed or put in its place, the folder holds no finished run.
     pub fn exchange(&self, run: &Run, files: &[(String, Vec<u8>)]) -> Result<(), RecordError> {
         let snippets = snippets_in(&self.path);
@@ -204,7 +212,8 @@ impl Folder {
         Ok(())
     }
 
-    /// The folder within the run's in which a file is to be: no link that leads out of it.
+    /// Makes the folder that a file goes into; refuses a link, which could lead out of the run's
+    /// folder.
     fn make_folder_of(&self, path: &Path) -> Result<(), RecordError> {
         let folder = path.parent().unwrap_or(&self.path);
         if folder != self.path && folder.is_symlink() {
@@ -227,7 +236,7 @@ impl Folder {
     }
 }
 
-/// What runs have written to a folder's `snippets`, and nothing else.
+/// Lists what runs have written to a folder's `snippets`, and nothing else.
 fn snippets_in(folder: &Path) -> Vec<String> {
     let part = |part: Option<&OsStr>| part.and_then(OsStr::to_str).unwrap_or_default().to_owned();
     let is_ours = |path: &Path| {
@@ -269,7 +278,7 @@ pub fn load_run(folder: &Path) -> Result<Run, RecordError> {
     }
 }
 
-/// Reads a front of a folder's run: that in maximum error, or the one that was searched for.
+/// Reads a front of a folder's run: the one in maximum error, or the one that was searched for.
 ///
 /// # Errors
 /// If it cannot be read, or is not the run's.
@@ -285,7 +294,7 @@ pub fn load_front(folder: &Path, run: &Run, minimax: bool) -> Result<Front, Reco
     Front::parse(&folder.join(file), &text, run, measure)
 }
 
-/// Reads how a folder's run went on; nothing where that was not recorded.
+/// Reads the trace of a folder's run; none if it was not recorded.
 ///
 /// # Errors
 /// If it cannot be read, or is not the run's.
@@ -295,7 +304,7 @@ pub fn load_trace(folder: &Path, run: &Run) -> Result<Option<Trace>, RecordError
     Ok(Some(Trace::parse(&text).map_err(damaged)?))
 }
 
-/// The text of a file that goes with a run; nothing where there is none.
+/// Reads a text file that goes with a run; none if there is no such file.
 ///
 /// # Errors
 /// If it cannot be read, or is not the one that the run was written with.
@@ -317,7 +326,7 @@ pub(crate) fn load_text(
     }
 }
 
-/// The text of a file, which must not be too large.
+/// Reads a text file, which must not be too large.
 pub(super) fn read(path: &Path) -> Result<String, RecordError> {
     let bytes = read_bytes(path, MAX_BYTES)?;
     String::from_utf8(bytes).map_err(|error| {
@@ -356,7 +365,7 @@ pub(super) fn unwritable(path: &Path) -> impl FnOnce(std::io::Error) -> RecordEr
 #[derive(Debug)]
 struct Lock {
     path: PathBuf,
-    /// Locked; nothing where the file system has no locks.
+    /// The locked file; none if the file system has no locks.
     file: Option<File>,
 }
 
@@ -376,7 +385,7 @@ impl Lock {
                     introduce(&file);
                     return Ok(Lock { path, file: Some(file) });
                 }
-                // The owner before has removed the file in between.
+                // The previous owner has removed the file in between.
                 Ok(()) => {}
                 Err(TryLockError::WouldBlock) => {
                     let owner = described(&std::fs::read_to_string(&path).unwrap_or_default());
@@ -390,20 +399,20 @@ impl Lock {
 
 impl Drop for Lock {
     fn drop(&mut self) {
-        // Before it is unlocked, so that what is removed is no other's.
+        // Removed before it is unlocked, so that it is no other's.
         if self.file.is_some() {
             let _ = std::fs::remove_file(&self.path);
         }
     }
 }
 
-/// Writes down who has the lock, for messages only.
+/// Writes the owner into the lock, for messages only.
 fn introduce(mut file: &File) {
     let text = format!("{} {}\n", std::process::id(), now().as_secs());
     let _ = file.set_len(0).and_then(|()| file.write_all(text.as_bytes()));
 }
 
-/// `process 1234, for 12 s`, as far as it is known.
+/// Describes an owner as `process 1234, for 12 s`, as far as it is known.
 fn described(text: &str) -> String {
     let mut words = text.split_whitespace().map_while(|word| word.parse::<u64>().ok());
     match (words.next(), words.next()) {
@@ -418,7 +427,7 @@ fn now() -> Duration {
     SystemTime::now().duration_since(UNIX_EPOCH).unwrap_or_default()
 }
 
-/// Whether the file is still the one at the path.
+/// Returns true if the file is still the one at the path.
 #[cfg(unix)]
 fn is_at(file: &File, path: &Path) -> bool {
     use std::os::unix::fs::MetadataExt;
@@ -427,7 +436,7 @@ fn is_at(file: &File, path: &Path) -> bool {
     file.metadata().map(identity).is_ok_and(|own| there.is_ok_and(|there| own == there))
 }
 
-/// An open file cannot be removed there.
+/// Returns true: there, an open file cannot be removed.
 #[cfg(not(unix))]
 fn is_at(_: &File, _: &Path) -> bool {
     true

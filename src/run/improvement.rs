@@ -2,7 +2,7 @@
 
 use super::TracePoint;
 
-/// When a search last became better.
+/// The last improvement of a search.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Improvement {
     hypervolume: f64,
@@ -10,10 +10,11 @@ pub(super) struct Improvement {
 }
 
 impl Improvement {
-    /// A hypervolume larger by this share is an improvement.
+    /// The relative growth of the hypervolume that counts as an improvement. By hand, unmeasured.
     const ENOUGH: f64 = 1e-3;
 
-    /// Whether nothing has improved for long: ten seconds, and a third of the time.
+    /// Returns true if nothing has improved for long: ten seconds, and a third of the time. Both by
+    /// hand, unmeasured.
     pub fn stalled(&mut self, point: &TracePoint) -> bool {
         if point.hypervolume > self.hypervolume * (1.0 + Improvement::ENOUGH) {
             *self = Improvement { hypervolume: point.hypervolume, seconds: point.seconds };

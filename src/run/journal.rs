@@ -1,30 +1,30 @@
-//! What a session notes as it goes on: its trace, what recurs in its formulas.
+//! The notes of a session: its trace, and what recurs in its formulas.
 
 use super::{Census, TracePoint, trace_csv};
 use crate::fit::Measure;
 use crate::program::Names;
 use crate::search::Search;
 
-/// Each line of a trace is this many times later than the one before: a long run's trace stays short, and
-/// its beginning fine enough.
+/// The ratio between the times of a trace's lines: a long run's trace stays short, and its
+/// beginning is fine enough. By hand, unmeasured.
 const TRACE_RATIO: f64 = 1.05;
 
 /// The notes of a session.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Journal {
     trace: Vec<TracePoint>,
-    /// The text of the run that this one goes on with.
+    /// The trace of the run that this one goes on with.
     earlier: String,
     pub census: Census,
 }
 
 impl Journal {
-    /// Of a run that goes on.
+    /// Continues the notes of an earlier run.
     pub fn resumed(trace: String, census: Census) -> Journal {
         Journal { trace: Vec::new(), earlier: trace, census }
     }
 
-    /// Notes where the search stands, unless that was done just now.
+    /// Notes the state of the search, unless that was done just now.
     pub fn note(&mut self, point: &TracePoint, search: &Search, names: &Names) {
         let due = |last: &TracePoint| point.seconds >= last.seconds * TRACE_RATIO;
         if self.trace.last().is_none_or(due) {
@@ -32,7 +32,7 @@ impl Journal {
         }
     }
 
-    /// Notes where the search ends, unless nothing has been considered since.
+    /// Notes the end of the search, unless nothing has been considered since the last note.
     pub fn note_the_end(&mut self, point: &TracePoint, search: &Search, names: &Names) {
         if self.trace.last().is_some_and(|last| last.counts != point.counts) {
             self.note_anyway(point, search, names);
@@ -46,7 +46,7 @@ impl Journal {
         self.trace.push(point.clone());
     }
 
-    /// The text of `trace.csv`.
+    /// Returns the text of `trace.csv`.
     pub fn trace(&self, measure: Measure) -> String {
         let trace = trace_csv(&self.trace, measure);
         match self.earlier.is_empty() {

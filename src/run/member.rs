@@ -1,4 +1,4 @@
-//! `front.json` and `front-max.json`: members as they are written, and how they are read back.
+//! `front.json` and `front-max.json`: members as they are written and read back.
 
 use super::folder::read;
 use super::{RecordError, Run};
@@ -15,23 +15,29 @@ use std::path::Path;
 /// A member as `front.json` has it.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct MemberRecord {
+    /// Cycles on the run's GPU profile.
     pub cost: f64,
-    /// Null in records of a version that did not count them.
+    /// Registers; null in records of a version that did not count them.
     pub registers: Option<u32>,
-    /// Over all outputs, on the search split.
+    /// The RMSE over all outputs, on the search split.
     pub rmse: f64,
+    /// The maximum error over all outputs, on the search split.
     pub max_error: f64,
+    /// The errors over all outputs, on the validation split.
     pub validation: OutputError,
-    /// By output, on the search split.
+    /// The errors by output, on the search split.
     pub errors: BTreeMap<String, OutputError>,
-    /// By output, on the validation split.
+    /// The errors by output, on the validation split.
     pub validation_errors: BTreeMap<String, OutputError>,
+    /// What is proved of it, or refuted.
     #[serde(default)]
     pub verdict: VerdictRecord,
+    /// Its text.
     pub formula: String,
 }
 
 impl MemberRecord {
+    /// Records a member.
     pub fn new(member: &FrontMember, names: &Names) -> MemberRecord {
         let by_output = |errors: &[OutputError]| {
             names.outputs.iter().cloned().zip(errors.iter().copied()).collect()
@@ -76,18 +82,22 @@ impl MemberRecord {
 }
 
 impl Front {
-    /// The text of `front.json`.
+    /// Returns the text of `front.json`.
     pub fn to_json(&self, names: &Names) -> String {
         let members: Vec<_> = self.members.iter().map(|m| MemberRecord::new(m, names)).collect();
         serde_json::to_string_pretty(&members).expect("plain data") + "\n"
     }
 
-    /// Reads `front.json` or `front-max.json` of a run's folder, in the measure that it was made in.
+    /// Reads `front.json` or `front-max.json` from a run's folder, in the measure that it was made
+    /// in.
+    ///
+    /// # Errors
+    /// If it cannot be read, or is not a front of the run.
     pub fn load(path: &Path, run: &Run, measure: Measure) -> Result<Front, RecordError> {
         Front::parse(path, &read(path)?, run, measure)
     }
 
-    /// The same of the file's text.
+    /// Parses the text of the file at `path`, as [`Front::load`] does.
     pub fn parse(
         path: &Path,
         text: &str,
@@ -111,7 +121,7 @@ impl Front {
     }
 }
 
-/// The line on which a member's cost, its first field, stands; the first where that is not to be seen.
+/// Returns the line of a member's first field, its cost; 1 if that cannot be found.
 fn line_of_member(text: &str, number: usize) -> usize {
     let mut lines = (1..).zip(text.lines());
     let costs = lines.by_ref().filter(|(_, line)| line.trim_start().starts_with("\"cost\""));

@@ -1,5 +1,5 @@
-//! The union of runs: associative, commutative, idempotent, so that any scheduler can spread seeds
-//! over machines and put together what comes back, in any order.
+//! The union of runs: associative, commutative and idempotent, so that any scheduler can spread
+//! seeds over machines and merge what comes back, in any order.
 
 use super::Run;
 use crate::cost::Profile;
@@ -17,12 +17,13 @@ pub struct Incompatible {
     other: String,
 }
 
-/// The run and the front that hold what all of them hold: the members that none dominates, and the
-/// searches they came from, each once. Nothing of no runs.
+/// Merges runs: returns the members that none dominates, and a run whose sources are all searches
+/// that they came from, each once. Returns none for no runs.
 ///
 /// # Errors
-/// Runs of other data, scenes, columns, claims, grammars, GPU profiles, error measures or requirements. (What a
-/// search was told about where to look, such as transforms, may differ: its formulas are as good.)
+/// Runs of other data, scenes, columns, claims, grammars, GPU profiles, error measures or
+/// requirements. (Settings of where to look, such as transforms, may differ: their formulas are as
+/// good.)
 pub fn merge(runs: Vec<(Run, Front)>) -> Result<Option<(Run, Front)>, Incompatible> {
     let mut sources = Vec::new();
     let mut members = Vec::new();
@@ -71,27 +72,27 @@ fn check(one: &Run, other: &Run) -> Result<(), Incompatible> {
 }
 
 impl Run {
-    /// What the two runs' grammars are told apart by.
+    /// Returns what tells the grammars of two runs apart.
     pub fn grammars_beside(&self, other: &Run) -> [String; 2] {
         let content = |run: &Run| run.rules.as_ref().map(Grammar::fingerprint);
         contents((&self.grammar, content(self)), (&other.grammar, content(other)))
     }
 
-    /// What the two runs' GPU profiles are told apart by.
+    /// Returns what tells the GPU profiles of two runs apart.
     pub fn profiles_beside(&self, other: &Run) -> [String; 2] {
         let content = |run: &Run| run.profile.as_ref().map(Profile::fingerprint);
         contents((&self.gpu, content(self)), (&other.gpu, content(other)))
     }
 
-    /// Whether everything costs the same in both runs.
+    /// Returns true if everything costs the same in both runs.
     pub fn has_profile_of(&self, other: &Run) -> bool {
         let [own, others] = self.profiles_beside(other);
         own == others
     }
 }
 
-/// What two files are told apart by: their contents; their names where a record of an older version lacks
-/// those.
+/// Returns what tells two files apart: their contents, or their names where a record of an older
+/// version lacks contents.
 fn contents(one: (&str, Option<String>), other: (&str, Option<String>)) -> [String; 2] {
     match (one, other) {
         ((_, Some(a)), (_, Some(b))) if a == b => [a, b],
@@ -101,7 +102,7 @@ fn contents(one: (&str, Option<String>), other: (&str, Option<String>)) -> [Stri
     }
 }
 
-/// What is said of all searches together depends on their set alone.
+/// Returns the record of a union; it depends on the set of all searches alone.
 fn union(mut sources: Vec<Run>) -> Run {
     let key = |run: &Run| ron::to_string(run).expect("plain data");
     sources.sort_by_cached_key(key);

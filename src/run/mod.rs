@@ -1,8 +1,27 @@
-//! Runs: a search under way, the record of it, and the folder that keeps both.
+//! Runs: a search under way, its record, and the folder that keeps both.
 //!
-//! A [`Session`] does all that `lgp search` does but read arguments and print: budget, start, stopping rule,
-//! checkpoints, both fronts. What it leaves behind is an [`Outcome`]. A [`Folder`] keeps it; nothing else knows
-//! the names and formats of its files, and each is read where it is written.
+//! A [`Session`] does all of `lgp search` except reading arguments and printing: budget, start,
+//! stopping rule, checkpoints, both fronts. It leaves an [`Outcome`], which a [`Folder`] keeps.
+//! Only the folder knows the names and formats of its files, and each file is read where it is
+//! written.
+//!
+//! A union of runs with different seeds:
+//! ```
+//! use lgp::dataset::{Dataset, axis};
+//! use lgp::run::{Budget, Session, merge};
+//! use lgp::search::{Method, Problem};
+//! let data = Dataset::sampled([axis("x", 0.0..=1.0)], ["y"], |[x]: [f64; 1]| [x / (x + 1.0)])?;
+//! let run = |seed| {
+//!     let problem = Problem::of(data.clone()).max_cost(6.0).build()?;
+//!     let method = Method { seed, islands: 1, ..Method::default() };
+//!     let budget = Budget { generations: Some(2), ..Budget::default() };
+//!     let outcome = Session::new(problem, method)?.budget(budget).run(|_| ())?;
+//!     Ok::<_, Box<dyn std::error::Error>>((outcome.run, outcome.front))
+//! };
+//! let (union, front) = merge(vec![run(1)?, run(2)?])?.expect("two runs");
+//! assert!(union.sources.len() == 2 && !front.members.is_empty());
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
 
 mod census;
 mod checkpoint;

@@ -21,73 +21,87 @@ pub struct Run {
     pub version: String,
     /// The command line, its arguments as given.
     pub command: Vec<String>,
+    /// The dataset's file.
     #[serde(serialize_with = "readable")]
     pub dataset: PathBuf,
+    /// The hash of the dataset's rows.
     pub dataset_hash: String,
-    /// What was needed of the dataset; none for all of it.
+    /// The scene that the dataset was cut to, if any.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub scene: Option<Scene>,
     /// The dataset's name.
     pub name: String,
-    /// The columns that were inputs and outputs.
+    /// The input columns.
     pub inputs: Vec<Column>,
+    /// The output columns.
     pub outputs: Vec<Column>,
     /// The dataset's claims.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub claims: Vec<String>,
-    /// The grammar's name, and what it was when the run was made; records of an older version lack that.
+    /// The grammar's name.
     pub grammar: String,
+    /// The grammar as it was; records of an older version lack it.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub rules: Option<Grammar>,
-    /// The same of the GPU profile.
+    /// The GPU profile's name.
     pub gpu: String,
+    /// The GPU profile as it was; records of an older version lack it.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub profile: Option<Profile>,
-    /// What was asked of formulas, and how they were searched.
+    /// What was asked of formulas.
     pub goal: Goal,
+    /// How they were searched.
     pub method: Method,
     /// The formulas that it started from, as given.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub guesses: Vec<String>,
-    /// The cycles up to which all formulas were asked to be tried.
+    /// The cycles up to which all formulas were to be tried.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub exhaustive: Option<f64>,
+    /// What it might spend.
     #[serde(default)]
     pub budget: Budget,
+    /// The machine that it ran on.
     pub machine: String,
+    /// The threads that it used.
     pub threads: usize,
+    /// The generations that it did.
     pub generations: u64,
+    /// The seconds that it took.
     pub seconds: f64,
+    /// The candidates that it considered, by what became of them.
     pub counts: Counts,
-    /// All programs of the lowest costs, where they are few enough.
+    /// The enumeration of all programs of the lowest costs, if they are few enough.
     #[serde(default)]
     pub enumeration: Option<Enumeration>,
-    /// The runs that this is the union of; none for a search.
+    /// The searches of a union; none for a search.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub sources: Vec<Run>,
-    /// Checksums of the files that go with it, by name.
+    /// The checksums of the files that go with it, by name.
     #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
     pub files: BTreeMap<String, String>,
 }
 
-/// What a search may spend, all in all; neither where it goes on until little improves.
+/// The limits of a whole search; with neither, it goes on until little improves.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(default)]
 pub struct Budget {
+    /// The most seconds.
     pub seconds: Option<f64>,
+    /// The most generations.
     pub generations: Option<u64>,
 }
 
-/// The seconds that a search without a budget may take.
+/// The most seconds of a search without a budget. By hand, unmeasured.
 const USUAL_SECONDS: f64 = 60.0;
 
 impl Budget {
-    /// The seconds that a run may take, if they are limited.
+    /// Returns the seconds that a run may take, if they are limited.
     pub fn time(&self) -> Option<f64> {
         self.seconds.or(self.generations.is_none().then_some(USUAL_SECONDS))
     }
 
-    /// The share of it that is spent.
+    /// Returns the share of the budget that is spent, in [0, 1].
     pub(super) fn share(&self, seconds: f64, generation: u64) -> f64 {
         match (self.time(), self.generations) {
             (_, Some(n)) => generation as f64 / n.max(1) as f64,
@@ -97,20 +111,20 @@ impl Budget {
     }
 }
 
-/// The machine that a search runs on.
+/// Describes the machine that a search runs on.
 pub(super) fn machine() -> String {
     let cores = std::thread::available_parallelism().map_or(1, usize::from);
     let [arch, os] = [std::env::consts::ARCH, std::env::consts::OS];
     format!("{arch} {os}, {cores} cores, {}", Isa::best())
 }
 
-/// A path as text; one that is none is not found again.
+/// Serialises a path as text; one that is not text is not found again.
 fn readable<S: Serializer>(path: &Path, serializer: S) -> Result<S::Ok, S::Error> {
     serializer.serialize_str(&path.to_string_lossy())
 }
 
 impl Run {
-    /// The record of a search that has not begun.
+    /// Returns the record of a search that has not begun.
     pub fn of(problem: &Problem, method: &Method) -> Run {
         let (data, grammar) = (problem.dataset(), problem.grammar());
         Run {
@@ -132,7 +146,7 @@ impl Run {
         }
     }
 
-    /// What its formulas must be, as `--require` takes it, whatever their order was; or `none`.
+    /// Returns the requirements as `--require` takes them, in a fixed order; or `none`.
     pub fn requirements(&self) -> String {
         let names = self.names();
         let texts = self.goal.requirements.iter().map(|one| one.text(&names));
@@ -143,32 +157,35 @@ impl Run {
         }
     }
 
-    /// The names of its inputs and outputs.
+    /// Returns the names of its inputs and outputs.
     pub fn names(&self) -> Names {
         let [inputs, outputs] = [&self.inputs, &self.outputs]
             .map(|columns| columns.iter().map(|column| column.name.clone()));
         Names::new(inputs, outputs)
     }
 
-    /// What is asked of its formulas.
+    /// Returns what is asked of its formulas.
     pub fn questions(&self) -> Questions {
         Questions::of(&self.inputs, &self.outputs, &self.claims)
     }
 
-    /// The grammar as it was; that of its name, if it is built in, where the record lacks it.
+    /// Returns the grammar as it was, or, if the record lacks it, the built-in one of its name.
     ///
     /// # Errors
-    /// If it is neither.
+    /// If there is neither.
     pub fn grammar(&self) -> Result<Grammar, FileError> {
         self.rules.clone().map_or_else(|| Grammar::find_built_in(&self.grammar), Ok)
     }
 
-    /// The GPU profile as it was; that of its name, if it is built in, where the record lacks it.
+    /// Returns the GPU profile as it was, or, if the record lacks it, the built-in one of its name.
     pub fn profile(&self) -> Option<Profile> {
         self.profile.clone().or_else(|| Profile::find_built_in(&self.gpu))
     }
 
-    /// Reads `run.ron` of a run's folder, and checks it.
+    /// Reads `run.ron` from a run's folder, and checks it.
+    ///
+    /// # Errors
+    /// If it cannot be read, or fails [`Run::check`].
     pub fn load(folder: &Path) -> Result<Run, RecordError> {
         let path = folder.join(RUN);
         Run::from_ron(&read(&path)?).map_err(|(line, reason)| RecordError::Damaged {
@@ -178,7 +195,10 @@ impl Run {
         })
     }
 
-    /// Reads the text of `run.ron`, and checks it; or says on which line it is wrong.
+    /// Parses the text of `run.ron`, and checks it.
+    ///
+    /// # Errors
+    /// The line, and what is wrong with it.
     pub fn from_ron(text: &str) -> Result<Run, (usize, String)> {
         let run: Run =
             ron::from_str(text).map_err(|error| (error.span.start.line, error.code.to_string()))?;
@@ -186,14 +206,14 @@ impl Run {
         Ok(run)
     }
 
-    /// The text of `run.ron`.
+    /// Returns the text of `run.ron`.
     pub fn to_ron(&self) -> String {
         let pretty = ron::ser::PrettyConfig::default();
         ron::ser::to_string_pretty(self, pretty).expect("plain data") + "\n"
     }
 }
 
-/// The line of the first name in backquotes that a text has.
+/// Returns the line of the first name in backquotes that a text has.
 fn line_of_field(text: &str, reason: &str) -> usize {
     let has = |name: &str| text.lines().position(|line| line.contains(name));
     let named = reason.split('`').skip(1).step_by(2);

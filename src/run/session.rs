@@ -14,16 +14,17 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 
-/// Between two looks at a generation that lasts long.
+/// The longest time between two reports of a generation. By hand, unmeasured.
 const PAUSE: Duration = Duration::from_secs(1);
 
-/// Between checkpoints.
+/// The time between checkpoints: what a killed search loses. By hand, unmeasured.
 const CHECKPOINT_INTERVAL: Duration = Duration::from_secs(15);
 
-/// Where all formulas up to some cost were asked for, so many structures at most: a few minutes.
+/// The most structures that are enumerated if all formulas up to some cost were asked for: a few
+/// minutes.
 const MAX_ENUMERATED: usize = 200_000;
 
-/// A search under way, and what becomes of it.
+/// A search under way, up to its outcome.
 ///
 /// ```
 /// use lgp::dataset::{Dataset, axis};
@@ -46,11 +47,11 @@ pub struct Session {
     guesses: Vec<Draft>,
     start: Instant,
     stop: Stop,
-    /// Seconds of the run that this one goes on with.
+    /// Seconds that the run took before it was resumed.
     before: f64,
-    /// From the first step on.
+    /// Set at the first step.
     times: Option<Timetable>,
-    /// Where there is no budget.
+    /// Set if there is no budget.
     improvement: Option<Improvement>,
     is_over: bool,
     journal: Journal,
@@ -58,58 +59,65 @@ pub struct Session {
     warning: Option<RecordError>,
 }
 
-/// Where a session is written.
+/// The folder that a session is written to.
 #[derive(Debug)]
 struct Kept {
     folder: Folder,
-    /// Whether the folder still holds another run, which this one is to take the place of.
+    /// True if the folder still holds another run, which this one is to replace.
     replaces: bool,
     last_checkpoint: Instant,
 }
 
-/// Where a session stands after a step.
+/// The progress of a session after a step.
 #[derive(Clone, Debug)]
 pub struct Progress {
+    /// The state of the search.
     pub point: TracePoint,
-    /// What the point's errors are.
+    /// The measure of the point's errors.
     pub measure: Measure,
-    /// The share of the budget that is spent.
+    /// The share of the budget that is spent, in [0, 1].
     pub share: f64,
 }
 
-/// What follows a search, one after the other.
+/// A phase after the search; they follow in this order.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Phase {
+    /// The constants of the front are fitted.
     Polish,
+    /// The constants of the front in maximum error are fitted.
     PolishForMaximum,
+    /// Verdicts on the front.
     Prove,
+    /// Verdicts on that front.
     ProveForMaximum,
 }
 
-/// What a search leaves behind.
+/// The outcome of a search.
 #[derive(Clone, Debug)]
 pub struct Outcome {
+    /// The record of the run.
     pub run: Run,
-    /// In the measure that was made small.
+    /// The front in the measure that was minimised.
     pub front: Front,
-    /// In maximum error, constants fitted for that.
+    /// The front in maximum error, constants fitted for that.
     pub minimax: Front,
     /// The text of `trace.csv`.
     pub trace: String,
+    /// What recurs in its formulas.
     pub census: Census,
-    /// Formulas that the search had archived.
+    /// The number of formulas in the search's archive.
     pub archived: usize,
 }
 
 impl Outcome {
-    /// A member as a function ready to paste.
+    /// Returns a member as a function ready to paste.
     pub fn snippet(&self, member: &FrontMember, language: Language) -> String {
         snippet(&self.run, member, language)
     }
 }
 
 impl Session {
-    /// A search that has not begun, with no budget: it goes on until little improves.
+    /// Returns a search that has not begun, without a budget: it goes on until little improves.
     ///
     /// # Errors
     /// [`SetupError::Method`].
@@ -120,11 +128,11 @@ impl Session {
         Ok(Session::with(search, run, Journal::default()))
     }
 
-    /// A search that goes on from a checkpoint. One that was killed before its first candidate begins once
-    /// more.
+    /// Resumes a search from a checkpoint. One that was killed before its first candidate begins
+    /// again.
     ///
     /// # Errors
-    /// [`SetupError::State`]: no search of this problem comes where the checkpoint is.
+    /// [`SetupError::State`]: no search of this problem reaches the checkpoint's state.
     pub fn resume(
         problem: impl Into<Arc<Problem>>,
         checkpoint: Checkpoint,
@@ -161,16 +169,16 @@ impl Session {
         }
     }
 
-    /// What the whole run may spend.
+    /// Sets the limits of the whole run.
     pub fn budget(mut self, budget: Budget) -> Session {
         self.run.budget = budget;
         self
     }
 
-    /// Formulas to start from, over the dataset's columns.
+    /// Adds formulas to start from, over the dataset's columns.
     ///
     /// # Errors
-    /// The first that cannot be read.
+    /// The first formula that cannot be parsed.
     pub fn guesses(mut self, texts: &[String]) -> Result<Session, ParseError> {
         let names = self.search.problem().dataset().names();
         let read = |text: &String| Ok(parse(text, &names)?.into_draft());
@@ -185,65 +193,66 @@ impl Session {
         self
     }
 
-    /// Where the data came from, for the record: a file, its hash, the scene that was made of it.
+    /// Records where the data came from: a file, its hash, the scene that it was cut to.
     pub fn of_file(mut self, path: PathBuf, hash: String, scene: Option<Scene>) -> Session {
         (self.run.dataset, self.run.dataset_hash, self.run.scene) = (path, hash, scene);
         self
     }
 
-    /// What the GPU profile was asked for as, and by which command, for the record.
+    /// Records the name that the GPU profile was asked for by, and the command.
     pub fn asked_by(mut self, gpu: &str, command: Vec<String>) -> Session {
         (self.run.gpu, self.run.command) = (gpu.to_owned(), command);
         self
     }
 
-    /// Checkpoints go to this folder; `replaces` the run that is there.
+    /// Writes checkpoints to this folder; `replaces` says that it holds a run to replace.
     pub fn kept_in(mut self, folder: Folder, replaces: bool) -> Session {
         self.kept = Some(Kept { folder, replaces, last_checkpoint: Instant::now() });
         self
     }
 
-    /// The budget's time counts from here.
+    /// Counts the budget's time from here.
     pub fn since(mut self, start: Instant) -> Session {
         self.start = start;
         self
     }
 
-    /// Requests that end it early: one the search, one more what follows it.
+    /// Ends early on request: the first ends the search, the second what follows it.
     pub fn until_asked(mut self, stop: &Stop) -> Session {
         self.stop = stop.clone();
         self
     }
 
+    /// Returns the search.
     pub fn search(&self) -> &Search {
         &self.search
     }
 
-    /// The record, as it was when something was last written.
+    /// Returns the record, as it was when something was last written.
     pub fn record(&self) -> &Run {
         &self.run
     }
 
-    /// Where it is written.
+    /// Returns the folder that it is written to.
     pub fn folder(&self) -> Option<&Path> {
         self.kept.as_ref().map(|kept| kept.folder.path())
     }
 
-    /// Why the last checkpoint could not be written, once: the search goes on all the same, since its end may
-    /// still be written.
+    /// Returns, once, why the last checkpoint could not be written. The search goes on all the
+    /// same, since its end may still be written.
     pub fn take_warning(&mut self) -> Option<RecordError> {
         self.warning.take()
     }
 
-    /// The time that is left for what is made of the outcome.
+    /// Returns the time that is left for what is made of the outcome.
     pub fn time_left(&self) -> Deadline {
         self.times.as_ref().map_or(Deadline::NEVER, Timetable::writing)
     }
 
-    /// Enumerates, and takes the guesses in; what the first step does, unless it has been done.
+    /// Enumerates, and takes the guesses in: the first part of the first step, unless it is done.
     ///
     /// # Errors
-    /// [`SetupError::TooMany`], where all formulas up to some cost were asked for.
+    /// [`SetupError::TooMany`], if all formulas up to some cost were asked for.
     pub fn begin(&mut self) -> Result<(), SetupError> {
         if self.times.is_some() {
             return Ok(());
@@ -272,7 +281,7 @@ impl Session {
         Ok(())
     }
 
-    /// Goes on for a generation, or about a second of one; nothing where the search is over.
+    /// Goes on for a generation, or about a second of one; returns none if the search is over.
     ///
     /// # Errors
     /// Those of [`Session::begin`].
@@ -297,7 +306,7 @@ impl Session {
         Ok(Some(Progress { point, measure: self.search.problem().goal().measure, share }))
     }
 
-    /// Notes where it stands; checkpoints now and then.
+    /// Notes the state; writes a checkpoint now and then.
     fn note(&mut self, point: &TracePoint) {
         let names = self.run.names();
         self.journal.note(point, &self.search, &names);
@@ -316,12 +325,12 @@ impl Session {
         self.run.seconds = self.seconds();
     }
 
-    /// Of the whole run.
+    /// Returns the seconds of the whole run.
     fn seconds(&self) -> f64 {
         self.before + self.times.as_ref().map_or(0.0, Timetable::seconds)
     }
 
-    /// Writes what [`Session::resume`] goes on with, or notes a warning.
+    /// Writes what [`Session::resume`] needs, or notes a warning.
     fn checkpoint(&mut self) {
         self.bring_up_to_date();
         if let Err(error) = self.write_checkpoint() {
@@ -343,8 +352,8 @@ impl Session {
         kept.folder.checkpoint(&bytes)
     }
 
-    /// Both fronts, polished and judged, as good as there is time for. `hear` is told, from any thread, how far
-    /// each phase has come, and by `None` that it is over.
+    /// Returns both fronts, polished and judged as well as time permits. `hear` is called from any
+    /// thread with each phase's progress, and with `None` when it is over.
     pub fn finish(&mut self, hear: &(dyn Fn(Phase, Option<f64>) + Sync)) -> Outcome {
         self.bring_up_to_date();
         let end = TracePoint::of(&self.search, self.run.seconds);
@@ -380,7 +389,7 @@ impl Session {
         }
     }
 
-    /// Goes on until its budget is spent, and finishes.
+    /// Steps until the budget is spent, and finishes.
     ///
     /// # Errors
     /// Those of [`Session::step`].
@@ -391,11 +400,11 @@ impl Session {
         Ok(self.finish(&|_, _| {}))
     }
 
-    /// Puts the outcome, and files that were made of it, in the place of what its folder holds.
+    /// Writes the outcome, and files that were made of it, in place of what its folder holds.
     ///
     /// # Errors
-    /// [`RecordError::Unwritable`]: as [`Folder::exchange`], or of the last checkpoint, where all else is
-    /// written.
+    /// [`RecordError::Unwritable`]: as [`Folder::exchange`], or of the last checkpoint, if all else
+    /// is written.
     pub fn write(
         &mut self,
         outcome: &Outcome,

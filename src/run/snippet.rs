@@ -1,4 +1,4 @@
-//! Members as functions ready to paste, each with a comment that says what it is.
+//! Members as functions ready to paste, each with a comment that describes it.
 
 use super::Run;
 use crate::dataset::Column;
@@ -13,7 +13,7 @@ use crate::wording::examination::at_most;
 use crate::wording::{cycles_text, error_text, number_text, title, verdict_lines};
 use std::collections::BTreeSet;
 
-/// A member as a function ready to paste.
+/// Returns a member as a function ready to paste.
 pub fn snippet(run: &Run, member: &FrontMember, language: Language) -> String {
     let (names, header) = (run.names(), header(run, member));
     emit::emit(
@@ -22,7 +22,7 @@ pub fn snippet(run: &Run, member: &FrontMember, language: Language) -> String {
     )
 }
 
-/// A member in half precision but for some instructions, in a language that has it.
+/// Returns a member in half precision except for some instructions, if the language has halves.
 pub fn half_snippet(
     run: &Run,
     member: &FrontMember,
@@ -47,7 +47,7 @@ pub fn half_snippet(
     emit::emit_half(language, &snippet, stay_single)
 }
 
-/// The comment above a member, as lines.
+/// Returns the comment above a member, as lines.
 pub fn header(run: &Run, member: &FrontMember) -> Vec<String> {
     let names = run.names();
     let (search, validation) = (member.search_error(), member.validation_error());
@@ -72,7 +72,7 @@ pub fn header(run: &Run, member: &FrontMember) -> Vec<String> {
     header
 }
 
-/// The seed of a search, or those of a union.
+/// Returns the seed of a search, or those of a union.
 pub fn seeds(run: &Run) -> String {
     if run.sources.is_empty() {
         return format!("seed {}", run.method.seed);
@@ -91,7 +91,7 @@ fn cost_line(member: &FrontMember, run: &Run) -> String {
     }
 }
 
-/// RMSE and maximum; and first what was made small, if it is neither.
+/// Describes RMSE and maximum, after the measure that was minimised, if it is neither.
 fn described(error: OutputError, measure: Measure) -> String {
     let usual = format!("RMSE {}, max {}", error_text(error.rmse), error_text(error.max));
     match measure {
@@ -100,7 +100,7 @@ fn described(error: OutputError, measure: Measure) -> String {
     }
 }
 
-/// `a in [0, 1], b in [0, 2]`.
+/// Lists domains as `a in [0, 1], b in [0, 2]`.
 pub fn domains(inputs: &[Column]) -> String {
     let domain = |column: &Column| {
         let [low, high] = column.domain.map(shortest);

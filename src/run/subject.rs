@@ -1,4 +1,4 @@
-//! What is worked on: a dataset, or what a scene and a choice of columns leave of it.
+//! The data that is worked on: a dataset, cut to a scene and a choice of columns.
 
 use super::Run;
 use crate::cost::Profile;
@@ -10,6 +10,7 @@ use std::sync::Arc;
 
 /// A dataset that cannot be worked on.
 #[derive(Debug, thiserror::Error)]
+#[allow(missing_docs, reason = "each message names its fields")]
 pub enum SubjectError {
     #[error(transparent)]
     Dataset(#[from] dataset::Error),
@@ -22,14 +23,16 @@ pub enum SubjectError {
 /// A dataset as it is worked on.
 #[derive(Clone, Debug)]
 pub struct Subject {
-    /// As its file has it.
+    /// The dataset of the file.
     pub whole: Dataset,
+    /// The scene that it is cut to.
     pub scene: Option<Scene>,
+    /// The dataset that is left.
     pub dataset: Arc<Dataset>,
 }
 
 impl Subject {
-    /// Loads a dataset, and chooses what is needed of it: a scene by name, and columns.
+    /// Loads a dataset, and cuts it to a scene, given by name, and columns.
     ///
     /// # Errors
     /// [`SubjectError`].
@@ -43,7 +46,7 @@ impl Subject {
         Subject::new(whole, scene, choose)
     }
 
-    /// What a scene, if any, and then a choice leave of a dataset.
+    /// Cuts a dataset to a scene, if any, and then to a choice.
     pub fn new(
         whole: Dataset,
         scene: Option<Scene>,
@@ -56,8 +59,11 @@ impl Subject {
         Ok(Subject { whole, scene, dataset: Arc::new(dataset) })
     }
 
-    /// What a run was of, if that is still where the run found it, or as far from the run's folder as
-    /// it was; if not, what is wrong. The run then says where it is.
+    /// Loads a run's data from where the run found it, or from as far from the run's folder as it
+    /// was. The run's path is updated.
+    ///
+    /// # Errors
+    /// [`SubjectError`], also if the data is not what the run was made with.
     pub fn of_run(run: &mut Run, folder: &Path) -> Result<Subject, SubjectError> {
         if let Some(path) = found(&run.dataset, folder) {
             run.dataset = path;
@@ -65,7 +71,10 @@ impl Subject {
         Subject::of_run_at(run, &run.dataset)
     }
 
-    /// The same, of a dataset at a path.
+    /// Loads a run's data from a path.
+    ///
+    /// # Errors
+    /// As [`Subject::of_run`].
     pub fn of_run_at(run: &Run, path: &Path) -> Result<Subject, SubjectError> {
         let whole = Dataset::load(path)?;
         if !whole.has_hash(&run.dataset_hash) {
@@ -77,12 +86,12 @@ impl Subject {
         })
     }
 
-    /// The incumbents beside a run's dataset, costed as the run does, if they can be read.
+    /// Returns the incumbents beside a run's dataset, costed as the run does, if they can be read.
     pub fn published_for(&self, run: &Run) -> Option<Vec<ScoredIncumbent>> {
         self.published(&run.dataset, &run.profile()?).ok()
     }
 
-    /// The incumbents that define every output, scored.
+    /// Returns the incumbents that define every output, scored.
     pub fn published(
         &self,
         path: &Path,
@@ -102,7 +111,7 @@ impl Subject {
             .collect())
     }
 
-    /// The dataset's incumbents as the scene makes them, and those that were made for the scene:
+    /// Returns the dataset's incumbents cut to the scene, and those made for the scene:
     /// `incumbents/<dataset>_<scene>.ron` beside the dataset's file.
     fn incumbents_in(
         &self,
@@ -129,8 +138,8 @@ impl Subject {
     }
 }
 
-/// Where a run's dataset is: as its path says, seen from here; or seen from the run's folder or one around
-/// it, as when the command is given elsewhere.
+/// Finds a run's dataset: at its path seen from here, or from the run's folder or one around it, as
+/// when the command is given elsewhere.
 fn found(dataset: &Path, folder: &Path) -> Option<PathBuf> {
     if dataset.is_absolute() || dataset.is_file() {
         return Some(dataset.to_owned());
@@ -139,8 +148,8 @@ fn found(dataset: &Path, folder: &Path) -> Option<PathBuf> {
     folder.ancestors().map(|around| around.join(dataset)).find(|path| path.is_file())
 }
 
-/// A dataset's path as a run in a folder notes it: as given, where it can be found again by that, else in
-/// full.
+/// Returns a dataset's path as a run in a folder notes it: as given if it can be found again by
+/// that, else in full.
 pub fn noted(dataset: &Path, folder: &Path) -> PathBuf {
     let (Ok(full), Ok(folder)) = (dataset.canonicalize(), folder.canonicalize()) else {
         return dataset.to_owned();

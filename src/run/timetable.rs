@@ -1,37 +1,38 @@
-//! How the time of a run is shared between the search and what follows it.
+//! The division of a run's time between the search and what follows it. The shares were chosen by
+//! hand; no other values were measured unless a line says so.
 
 use crate::deadline::{Deadline, Stop};
 use crate::search::{Rehearsal, Search};
 use std::time::{Duration, Instant};
 
-/// Seconds since a run began at which its phases end. Nothing is known at first of what polishing and verdicts
-/// take; rehearsals tell.
+/// Seconds since a run began at which its phases end. At first nothing is known of how long
+/// polishing and verdicts take; rehearsals tell.
 #[derive(Clone, Copy, Debug, PartialEq)]
 struct Shares {
     total: f64,
     rehearsal: Rehearsal,
-    /// Seconds that files and pictures take.
+    /// Seconds for files and pictures.
     writing: f64,
 }
 
-/// Of the time, for the first formulas.
+/// The share of the time for the first formulas.
 const STARTING: f64 = 0.25;
 
-/// Of the time, at most, for all that follows the search, for verdicts, and for files.
+/// The largest shares of the time for all that follows the search, for verdicts, and for files.
 const MAX_FINISHING: f64 = 0.5;
 const MAX_JUDGING: f64 = 0.2;
 const MAX_WRITING: f64 = 0.25;
 
-/// Of the time, for the front for the maximum error; but no more than a second and so many times what polishing
-/// takes, where that is known (8 on the DFG, 24 on a small table of nine inputs).
+/// The share of the time for the front in maximum error; at most a second and so many times what
+/// polishing takes, if that is known (8 on the DFG, 24 on a small table of nine inputs).
 const SECOND_FRONT: f64 = 0.08;
 const SECOND_TO_FIRST: f64 = 25.0;
 
-/// Files and pictures: a second, and what a million rows take.
+/// Seconds for files and pictures: a second, and what a million rows take.
 const WRITING: f64 = 1.0;
 const WRITING_A_MILLION_ROWS: f64 = 1.0;
 
-/// Of the time, when rehearsals are due, and what one may take.
+/// The shares of the time at which rehearsals are due, and the share that one may take.
 const REHEARSALS: [f64; 3] = [0.1, 0.3, 0.6];
 const A_REHEARSAL: f64 = 0.05;
 
@@ -40,7 +41,7 @@ impl Shares {
         self.total - self.writing.min(MAX_WRITING * self.total)
     }
 
-    /// Verdicts of both fronts begin.
+    /// Returns when verdicts of both fronts begin.
     fn polishing_ends(&self) -> f64 {
         self.judging_ends() - (2.0 * self.rehearsal.judge).min(MAX_JUDGING * self.total)
     }
@@ -58,16 +59,16 @@ impl Shares {
 pub struct Timetable {
     start: Instant,
     shares: Option<Shares>,
-    /// Rehearsals that were made.
+    /// The number of rehearsals made.
     rehearsals: usize,
     stop: Stop,
-    /// A request that is made while the search goes on ends that; one made later, what is going on then.
+    /// A request during the search ends the search; a later one ends the phase it meets.
     search: Deadline,
     finishing: Deadline,
 }
 
 impl Timetable {
-    /// Of a run that began at `start`, on a dataset of so many rows.
+    /// Plans a run that began at `start`, on a dataset of so many rows.
     pub fn new(start: Instant, total: Option<Duration>, rows: usize, stop: &Stop) -> Timetable {
         let shares = |total: Duration| Shares {
             total: total.as_secs_f64(),
@@ -84,22 +85,22 @@ impl Timetable {
         }
     }
 
-    /// Since the run began.
+    /// Returns the seconds since the run began.
     pub fn seconds(&self) -> f64 {
         self.start.elapsed().as_secs_f64()
     }
 
-    /// For the first formulas.
+    /// Returns the deadline of the first formulas.
     pub fn starting(&self) -> Deadline {
         self.until(&self.search, |shares| STARTING * shares.total)
     }
 
-    /// For the search.
+    /// Returns the deadline of the search.
     pub fn search(&self) -> Deadline {
         self.until(&self.search, Shares::search_ends)
     }
 
-    /// Finds out, now and then, what finishing will take.
+    /// Measures, now and then, how long finishing will take.
     pub fn rehearse(&mut self, search: &Search) {
         let seconds = self.seconds();
         let Some(shares) = &mut self.shares else { return };
@@ -111,7 +112,7 @@ impl Timetable {
         }
     }
 
-    /// The search is over: requests count anew, and if one was made, the rest takes no longer than was
+    /// Ends the search: requests count anew, and if one was made, the rest takes no longer than was
     /// kept for it.
     pub fn begin_finishing(&mut self) {
         self.finishing = Deadline::NEVER.or_request(&self.stop);
@@ -121,17 +122,17 @@ impl Timetable {
         }
     }
 
-    /// For polishing, of either front.
+    /// Returns the deadline of polishing, for either front.
     pub fn polishing(&self) -> Deadline {
         self.until(&self.finishing, Shares::polishing_ends)
     }
 
-    /// For verdicts.
+    /// Returns the deadline of verdicts.
     pub fn judging(&self) -> Deadline {
         self.until(&self.finishing, Shares::judging_ends)
     }
 
-    /// For pictures.
+    /// Returns the deadline of pictures.
     pub fn writing(&self) -> Deadline {
         self.until(&self.finishing, |shares| shares.total)
     }

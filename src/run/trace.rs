@@ -1,4 +1,4 @@
-//! `trace.csv`: how a search goes on, as it is written and read.
+//! `trace.csv`: the progress of a search, as it is written and read.
 
 use crate::fit::Measure;
 use crate::search::{Counts, Search};
@@ -7,18 +7,22 @@ use serde::Serialize;
 /// A line of `trace.csv`.
 #[derive(Clone, Debug, PartialEq)]
 pub struct TracePoint {
+    /// Seconds since the run began.
     pub seconds: f64,
+    /// The candidates considered so far, by what became of them.
     pub counts: Counts,
+    /// The hypervolume of the archive.
     pub hypervolume: f64,
-    /// The least error that the search makes small, on the search split, at each of [`TRACE_COSTS`] or below.
+    /// The least error in the search's measure, on the search split, at each of [`TRACE_COSTS`] or
+    /// below.
     pub errors: [f64; TRACE_COSTS.len()],
 }
 
-/// The costs whose best error is traced.
+/// The costs whose best error is traced, in cycles.
 pub const TRACE_COSTS: [f64; 9] = [5.0, 8.0, 10.0, 12.0, 16.0, 20.0, 25.0, 30.0, 40.0];
 
 impl TracePoint {
-    /// Where a search stands after some seconds.
+    /// Returns the state of a search after some seconds.
     pub fn of(search: &Search, seconds: f64) -> TracePoint {
         TracePoint {
             seconds,
@@ -29,7 +33,7 @@ impl TracePoint {
     }
 }
 
-/// The text of `trace.csv`, its errors in a measure that names their columns.
+/// Returns the text of `trace.csv`, its error columns named after the measure.
 pub fn trace_csv(points: &[TracePoint], measure: Measure) -> String {
     let costs = TRACE_COSTS.map(|cost| format!("{measure}_{cost}")).join(",");
     let mut text = format!("seconds,considered,fitted,fitted_on_all,hypervolume,{costs}\n");
@@ -47,17 +51,20 @@ pub fn trace_csv(points: &[TracePoint], measure: Measure) -> String {
 /// The columns of a `trace.csv`.
 #[derive(Clone, Debug, Default, PartialEq, Serialize)]
 pub struct Trace {
+    /// Seconds since the run began, rising.
     pub seconds: Vec<f64>,
+    /// Candidates considered by then.
     pub considered: Vec<f64>,
+    /// The hypervolume by then.
     pub hypervolume: Vec<f64>,
-    /// Cycles, rising.
+    /// The costs, in cycles, rising.
     pub costs: Vec<f64>,
-    /// By cost, the least error at each moment at that cost or below; infinite where there is none.
+    /// By cost, the least error at each moment at that cost or below; infinite if there is none.
     pub errors: Vec<Vec<f64>>,
 }
 
 impl Trace {
-    /// Reads the text of a `trace.csv`.
+    /// Parses the text of a `trace.csv`.
     ///
     /// # Errors
     /// The line, and what is wrong with it.
@@ -72,7 +79,7 @@ impl Trace {
         let [seconds, considered, hypervolume] =
             [place("seconds")?, place("considered")?, place("hypervolume")?];
         let by_cost = names.iter().enumerate().filter_map(|(column, name)| {
-            // After the measure's name.
+            // The column's name begins with the measure's.
             let (measure, cost) = name.split_once('_')?;
             measure.parse::<Measure>().ok()?;
             Some((column, cost.parse::<f64>().ok()?))

@@ -31,36 +31,20 @@ pub struct Stated {
 
 /// A comment that should be a formula and is not.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+#[allow(missing_docs, reason = "each message names its fields")]
 pub enum StatedError {
     /// The formula cannot be parsed.
     #[error("line {line}: the formula in the comment cannot be read: {error}")]
-    Unreadable {
-        /// The comment's line, from 1.
-        line: usize,
-        /// What is wrong with the formula.
-        error: Box<ParseError>,
-    },
+    Unreadable { line: usize, error: Box<ParseError> },
     /// A comment without a mark gives one output a value.
     #[error(
         "line {line}: a comment gives `{output}` a value, but is no formula of all that is returned; \
          word it otherwise, or mark the comment with the formula by `{FORMULA}`: {error}"
     )]
-    Unmarked {
-        /// The comment's line, from 1.
-        line: usize,
-        /// The output's name.
-        output: String,
-        /// Why it is no formula of all outputs.
-        error: Box<ParseError>,
-    },
+    Unmarked { line: usize, output: String, error: Box<ParseError> },
     /// Two comments are the formula.
     #[error("lines {first} and {second} are both the formula; leave one, marked by `{FORMULA}`")]
-    Twice {
-        /// The first comment's line, from 1.
-        first: usize,
-        /// The second comment's line, from 1.
-        second: usize,
-    },
+    Twice { first: usize, second: usize },
 }
 
 /// Comments by purpose.

@@ -1,4 +1,4 @@
-//! What a texture would do in place of a formula.
+//! The accuracy of textures used in place of a formula.
 
 use crate::dataset::Split;
 use serde::Serialize;
@@ -6,17 +6,19 @@ use serde::Serialize;
 /// A table of `size` texels along each input, read with linear interpolation.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct LookupTable {
+    /// Texels along each input.
     pub size: usize,
     /// RMSE and maximum over all outputs, on the search split.
     pub error: [f64; 2],
 }
 
-/// Texels along each input.
+/// The texels along each input that are tried.
 const SIZES: [usize; 4] = [4, 8, 16, 32];
 
-/// Tables with at most half as many texels along each input as a split has points: one, two or three
-/// inputs on a full grid of cell centres; else none. Texels are read off the split, interpolated, at
-/// their centres; outside them the nearest is taken, as a sampler that clamps does.
+/// Returns tables with at most half as many texels along each input as a split has points, if the
+/// split is a full grid of cell centres over one to three inputs; else none. Texels are
+/// interpolated from the split at their centres; outside, the nearest is taken, as a sampler that
+/// clamps does.
 pub fn lookup_tables(split: &Split, outputs: usize) -> Vec<LookupTable> {
     let grid = &split.grid;
     let fewest = grid.iter().copied().min().unwrap_or(0);
@@ -44,7 +46,7 @@ fn error(columns: &[Vec<f32>], grid: &[usize], size: usize) -> [f64; 2] {
     [(squares / columns.len() as f64).sqrt(), max]
 }
 
-/// The centres of a grid's cells, each coordinate in [0, 1], the last varying fastest.
+/// Returns the centres of a grid's cells, each coordinate in [0, 1], the last varying fastest.
 fn centres(grid: &[usize]) -> impl Iterator<Item = Vec<f64>> + '_ {
     (0..grid.iter().product()).map(move |row| {
         let mut rest: usize = row;
@@ -57,7 +59,7 @@ fn centres(grid: &[usize]) -> impl Iterator<Item = Vec<f64>> + '_ {
     })
 }
 
-/// Linear interpolation between the cell centres of a grid.
+/// Interpolates linearly between the cell centres of a grid.
 fn read(values: &[f32], grid: &[usize], at: &[f64]) -> f32 {
     let mut sum = 0.0;
     for corner in 0..1usize << grid.len() {

@@ -1,8 +1,8 @@
-//! The page of a run: one file of HTML that needs nothing else, no network either.
+//! The page of a run: one HTML file that needs nothing else, not even a network.
 //!
 //! What can be computed is: the page holds the samples and each formula as JavaScript in f32
-//! arithmetic ([`crate::emit::javascript()`]), and makes maps, profiles and histograms of them when
-//! they are looked at. It depends on what it is given alone: no clock, no random number.
+//! arithmetic ([`crate::emit::javascript()`]), and computes maps, profiles and histograms when they
+//! are looked at. It depends only on its arguments: no clock, no random number.
 
 mod compare;
 mod lookup;
@@ -24,91 +24,112 @@ use crate::printable::{is_hidden, printable, printable_lines};
 use crate::run::Trace;
 use serde::Serialize;
 
-/// What a page shows.
+/// The contents of a page.
 #[derive(Clone, Debug, Serialize)]
 pub struct Page {
+    /// The heading.
     pub title: String,
-    /// Lines about the run: what, and its value.
+    /// Facts about the run: name and value.
     #[serde(skip)]
     pub facts: Vec<(String, String)>,
     /// The command line that makes the run again.
     #[serde(skip)]
     pub command: String,
+    /// The input columns.
     pub inputs: Vec<Column>,
+    /// The output columns.
     pub outputs: Vec<Column>,
+    /// The axes of costs.
     pub profiles: Vec<CostAxis>,
-    /// The place of the run's own profile in `profiles`.
+    /// The index of the run's own profile in `profiles`.
     pub profile: usize,
+    /// The fronts, the one searched for first.
     pub fronts: Vec<PageFront>,
     /// Published formulas.
     pub published: Vec<Formula>,
+    /// Textures to compare with.
     pub lookup_tables: Vec<LookupTable>,
     /// The search split; none if the dataset is no longer there.
     pub samples: Option<SampleTable>,
+    /// The progress of the search, if it was recorded.
     pub trace: Option<Trace>,
+    /// The spheres, if a material is known for the columns.
     pub spheres: Option<PageSpheres>,
+    /// The names of the languages of each formula's code.
     pub languages: Vec<&'static str>,
 }
 
-/// What a formula may cost, on an axis of the plot: cycles on a GPU, or nanoseconds measured.
+/// An axis of costs: cycles on a GPU, or nanoseconds measured.
 #[derive(Clone, Debug, Serialize)]
 pub struct CostAxis {
+    /// The profile or device.
     pub name: String,
+    /// What it stands for.
     pub description: String,
+    /// The unit of costs.
     pub unit: &'static str,
 }
 
-/// A front, and the measure that it is of.
+/// A front, and its measure.
 #[derive(Clone, Debug, Serialize)]
 pub struct PageFront {
-    /// As `--loss` takes it.
+    /// The measure, as `--loss` takes it.
     pub measure: String,
+    /// The measure's name.
     pub title: String,
-    /// By what formulas are on it or off it.
+    /// Says by which error formulas are on the front.
     pub cut: String,
-    /// What `lgp emit` and `lgp front` are told to take it.
+    /// The option with which `lgp emit` and `lgp front` take this front.
     pub option: &'static str,
+    /// The formulas, costs rising.
     pub members: Vec<Formula>,
-    /// The place of the member to begin with.
+    /// The index of the member to begin with.
     pub knee: usize,
 }
 
 /// A formula of a front, or a published one.
 #[derive(Clone, Debug, Serialize)]
 pub struct Formula {
-    /// Of a published formula.
+    /// The name of a published formula.
     pub name: Option<String>,
-    /// By profile; null where it was not measured.
+    /// The costs by profile; null where not measured.
     pub costs: Vec<Option<f64>>,
+    /// Registers by profile; null where not counted.
     pub registers: Vec<Option<u32>>,
-    /// RMSE, maximum, and what the search made small, by output, on the search split.
+    /// RMSE, maximum, and the minimised measure, by output, on the search split.
     pub errors: Vec<[f64; 3]>,
-    /// Over all outputs.
+    /// The same over all outputs.
     pub error: [f64; 3],
+    /// The same over all outputs, on the validation split.
     pub validation: [f64; 3],
-    /// As `front.json` has it; null of published formulas.
+    /// The verdict as `front.json` has it; null for published formulas.
     pub verdict: serde_json::Value,
+    /// The formula's text.
     pub formula: String,
     /// Lines of the comment above each function.
     pub header: Vec<String>,
-    /// By language.
+    /// The code in each language.
     pub code: Vec<Code>,
+    /// The formula as MathML.
     pub mathml: String,
-    /// A function in JavaScript.
+    /// The formula as a JavaScript function.
     #[serde(skip)]
     pub script: String,
 }
 
-/// A function in some language, and what begins a comment of each line of the header above it.
+/// A function in some language, and the text that begins a comment in each line of the header above
+/// it.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Code {
+    /// The beginning of a comment.
     pub comment: &'static str,
+    /// The function.
     pub body: String,
 }
 
 const TEMPLATE: &str = include_str!("page.html");
 const STYLE: &str = include_str!("page.css");
-/// In order: each uses what is above it.
+/// The scripts in order: each uses those above it.
 const SCRIPTS: [&str; 10] = [
     include_str!("script/elements.js"),
     include_str!("script/base.js"),
@@ -122,7 +143,7 @@ const SCRIPTS: [&str; 10] = [
     include_str!("script/main.js"),
 ];
 
-/// The page as HTML.
+/// Returns the page as HTML.
 pub fn html(page: &Page) -> String {
     let data = serde_json::to_string(page).expect("plain data");
     let [policy, style, script] = own(&format!("{}\n{}", functions(page), SCRIPTS.concat()));
@@ -143,7 +164,8 @@ fn fact((name, value): &(String, String)) -> String {
     format!("<dt>{}</dt><dd>{}</dd>", escaped(name), escaped(&value))
 }
 
-/// JSON in which nothing ends a `<script>`, and hidden characters are seen.
+/// Makes JSON harmless within a `<script>`: nothing ends the element, and hidden characters are
+/// seen.
 fn within_script(json: &str) -> String {
     let mut text = String::with_capacity(json.len());
     for character in json.chars() {
@@ -156,7 +178,7 @@ fn within_script(json: &str) -> String {
     text
 }
 
-/// An array of functions for each front, and one for the published formulas.
+/// Returns a JavaScript array of functions for each front, and one for the published formulas.
 fn functions(page: &Page) -> String {
     let listed = |formulas: &[Formula]| {
         let scripts: Vec<&str> = formulas.iter().map(|formula| formula.script.as_str()).collect();

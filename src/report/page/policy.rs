@@ -1,11 +1,11 @@
-//! What a browser lets a page do: run its own script and show its own style, and nothing else.
+//! The content security policy of a page, which allows its own script and style and nothing else.
 
 use super::STYLE;
 use base64::{Engine, prelude::BASE64_STANDARD};
 use sha2::{Digest, Sha256};
 
-/// A template's values: the content security policy that allows no other style and script than the page's
-/// own, no network and no forms, and those two.
+/// Returns a template's values: the page's script and style, and the policy that allows no others,
+/// no network and no forms.
 pub(super) fn own(script: &str) -> [(&'static str, String); 3] {
     let script = unix(&format!("\n\"use strict\";\n(() => {{\n{script}\n}})();\n"));
     let style = unix(STYLE);
@@ -17,12 +17,12 @@ pub(super) fn own(script: &str) -> [(&'static str, String); 3] {
     [("policy", policy), ("style", style), ("script", script)]
 }
 
-/// As a content security policy names the text of an element.
+/// Returns the hash of an element's text, as a content security policy spells it.
 fn hash(text: &str) -> String {
     format!("sha256-{}", BASE64_STANDARD.encode(Sha256::digest(text)))
 }
 
-/// A browser hashes what it has read, in which a line ends in `\n`.
+/// Ends lines in `\n`, as a browser does before it hashes.
 fn unix(text: &str) -> String {
     text.replace("\r\n", "\n")
 }

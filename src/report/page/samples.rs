@@ -1,25 +1,26 @@
-//! The samples that a page is given.
+//! The samples in a page.
 
 use crate::dataset::Split;
 use serde::Serialize;
 
-/// More rows than these are thinned out.
+/// The most rows in a page; more are thinned out. By hand, unmeasured.
 const MAX_ROWS: usize = 16384;
 
-/// Samples of a split; of a full grid only the places along its axes.
+/// Samples of a split; of a full grid only the places along its axes are stored.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct SampleTable {
-    /// Points along each input, the first varying slowest; empty where the rows are no grid.
+    /// Points along each input, the first varying slowest; empty if the rows are no grid.
     pub grid: Vec<usize>,
     /// The places along each axis of the grid, or each row's.
     pub inputs: Vec<Vec<f32>>,
+    /// By output, the values of the rows.
     pub outputs: Vec<Vec<f32>>,
-    /// The rows of the split, of which these may be some.
+    /// The number of rows of the split, of which these may be some.
     pub of: usize,
 }
 
 impl SampleTable {
-    /// The rows of a split whose first columns are so many inputs; every so many of them, where they
+    /// Returns the rows of a split whose first columns are its inputs; evenly thinned out if they
     /// are too many for a page.
     pub fn of(split: &Split, inputs: usize) -> SampleTable {
         let rows = split.rows();

@@ -1,4 +1,4 @@
-//! The spheres of a page: what its shader is made of.
+//! The spheres of a page: the parts of their shader.
 
 use crate::dataset::Dataset;
 use crate::report::spheres::{
@@ -6,11 +6,11 @@ use crate::report::spheres::{
 };
 use serde::Serialize;
 
-/// All of the shader but the formula.
+/// All of the shader except the formula.
 #[derive(Clone, Debug, Serialize)]
 pub struct PageSpheres {
     environments: Vec<Surroundings>,
-    /// The place of the one to begin with.
+    /// The index of the environment to begin with.
     environment: usize,
     table: SphereTable,
     settings: Settings,
@@ -26,11 +26,11 @@ struct Surroundings {
     light: String,
 }
 
-/// What the parts of a vector can hold.
+/// The components of a GLSL vector.
 const MAX_INPUTS: usize = 4;
 
 impl PageSpheres {
-    /// Nothing if no scene is known for the columns, or the samples are no even grid.
+    /// Returns none if no material is known for the columns, or the samples are no even grid.
     pub fn of(dataset: &Dataset) -> Option<PageSpheres> {
         let Dataset { inputs, outputs, .. } = dataset;
         if inputs.len() > MAX_INPUTS {

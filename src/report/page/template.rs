@@ -1,6 +1,6 @@
 //! Templates of HTML, in which each `{{ name }}` stands for a value.
 
-/// A template with its values, which are HTML.
+/// Fills a template with values, which are HTML.
 ///
 /// # Panics
 /// If a value is missing: the templates are part of the program.
@@ -16,7 +16,7 @@ pub(super) fn filled(template: &str, values: &[(&str, String)]) -> String {
     html
 }
 
-/// Text as HTML, in attributes, too.
+/// Escapes text for HTML, attributes included.
 pub(super) fn escaped(text: &str) -> String {
     let mut html = String::with_capacity(text.len());
     for character in text.chars() {

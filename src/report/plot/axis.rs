@@ -1,13 +1,13 @@
 //! Ranges and ticks of the two axes.
 
-/// Errors beyond are drawn as these: their logarithms are not worth the paper.
+/// The smallest and largest error drawn; others are drawn there.
 const ERRORS: (f64, f64) = (1e-30, 1e30);
 const MAX_CYCLES: f64 = 1e15;
 
 /// The part of the axis of errors below the least of them where some are zero.
 const ROOM_FOR_ZERO: f64 = 0.12;
 
-/// A mark on an axis: its place, from 0 to 1, and what is written there.
+/// A mark on an axis: its place, from 0 to 1, and its text.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Tick {
     pub place: f64,
@@ -23,7 +23,7 @@ pub(super) struct Cycles {
 
 impl Cycles {
     pub(super) fn over(cycles: impl Iterator<Item = f64>) -> Cycles {
-        // Room for the marker of the costliest.
+        // Room for the marker of the most expensive one.
         let most = cycles.fold(0.0, f64::max).min(MAX_CYCLES) * 1.01;
         let mut steps = (0..).map(|i| mantissa(i) * 10f64.powi(i / 3));
         let step = steps.find(|step| step * 10.0 >= most).unwrap_or(MAX_CYCLES);
@@ -43,10 +43,10 @@ impl Cycles {
     }
 }
 
-/// Errors, logarithmic.
+/// Errors, on a logarithmic axis.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Errors {
-    /// Logarithms to the base 10.
+    /// The logarithm of the least, to the base 10.
     least: f64,
     most: f64,
     /// The part of the axis below the least.
@@ -79,7 +79,8 @@ impl Errors {
         self.below + (1.0 - self.below) * part.clamp(0.0, 1.0)
     }
 
-    /// Ticks no closer than a part of the axis: 1, 2 and 5 of each decade, or 1 of every few.
+    /// Returns ticks no closer than `closest`, a part of the axis: 1, 2 and 5 of each decade, or 1
+    /// of every few.
     pub(super) fn ticks(&self, closest: f64) -> Vec<Tick> {
         let per_decade = (1.0 - self.below) / (self.most - self.least);
         let every = if 2f64.log10() * per_decade >= closest {
@@ -102,7 +103,7 @@ fn logarithm(error: f64) -> Option<f64> {
     (error >= least).then(|| error.min(most).log10())
 }
 
-/// 1, 2, 5 and again.
+/// Returns 1, 2, 5 in turn.
 fn mantissa(i: i32) -> f64 {
     [1.0, 2.0, 5.0][i.rem_euclid(3) as usize]
 }
@@ -111,7 +112,7 @@ fn tick_logarithm(i: i32) -> f64 {
     mantissa(i).log10() + f64::from(i.div_euclid(3))
 }
 
-/// The tick's number, such as .002: with a power of ten where zeros would have to be counted.
+/// Formats a tick's number, such as .002, with a power of ten if zeros would have to be counted.
 fn decimal(i: i32) -> String {
     let (mantissa, exponent) = (mantissa(i), i.div_euclid(3));
     match exponent {

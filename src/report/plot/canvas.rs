@@ -14,7 +14,7 @@ pub(super) type Vector<'a> = SVGBackend<'a>;
 pub(super) type Bitmap<'a> = BitMapBackend<'a>;
 pub(super) type Point = (f64, f64);
 
-/// The side of a text that a position is given for.
+/// The side of a text that a position refers to.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Anchor {
     Left,
@@ -22,9 +22,9 @@ pub(super) enum Anchor {
     Right,
 }
 
-/// A backend, and how it writes text: plotters places it differently on each.
+/// A backend that can write text: plotters places it differently on each.
 pub(super) trait Surface: DrawingBackend {
-    /// Writes on the baseline at a position.
+    /// Writes text on the baseline at a position.
     fn write(
         &mut self,
         text: &str,

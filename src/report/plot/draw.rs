@@ -13,7 +13,7 @@ const DIAMOND: f64 = 6.0;
 const OUTLINE: f64 = 1.5;
 const LONGEST_NAME: f64 = 240.0;
 
-/// What is drawn, and where.
+/// The plot, and the places of its parts.
 struct Layout<'a> {
     plot: &'a FrontPlot<'a>,
     frame: Frame<'a>,
@@ -65,7 +65,7 @@ impl<'a> Layout<'a> {
         (self.frame.x(self.cycles.place(cycles)), self.frame.y(self.errors.place(error)))
     }
 
-    /// The least error for each budget of cycles, from the first formula to the right edge.
+    /// Returns the least error for each budget of cycles, from the first formula to the right edge.
     fn steps(&self) -> Vec<Point> {
         let mut corners = Vec::new();
         for (i, &(x, y)) in self.front.iter().enumerate() {
@@ -87,7 +87,7 @@ impl<'a> Layout<'a> {
         Ok(())
     }
 
-    /// What the two kinds of marker are. A front alone needs no key.
+    /// Draws the key of the two kinds of marker. A front alone needs none.
     fn key<S: Surface>(&self, canvas: &mut Canvas<S>) -> Result<(), PlotError> {
         if self.front.is_empty() || self.incumbents.is_empty() {
             return Ok(());
@@ -106,7 +106,7 @@ impl<'a> Layout<'a> {
         canvas.disc((x, baseline - 4.0), DOT, front)
     }
 
-    /// Incumbents that have no place on the axes.
+    /// Names the incumbents that have no place on the axes.
     fn footer<S: Surface>(&self, canvas: &mut Canvas<S>) -> Result<(), PlotError> {
         let infinite = |cycles: f64, error: f64| !(cycles.is_finite() && error.is_finite());
         let left_out = self.plot.incumbents.iter().filter(|i| infinite(i.1, i.2));
@@ -161,7 +161,7 @@ impl<'a> Layout<'a> {
         Ok(())
     }
 
-    /// From a marker to a name that is not right beside it.
+    /// Draws a line from a marker to a name that is not right beside it.
     fn leader<S: Surface>(
         &self,
         canvas: &mut Canvas<S>,

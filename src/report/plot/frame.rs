@@ -1,4 +1,4 @@
-//! What every plot has: paper, heading, axes.
+//! The frame of every plot: paper, heading, axes.
 
 use super::axis::{Errors, Tick};
 use super::canvas::{Anchor, Canvas, HEIGHT, Surface, WIDTH};
@@ -12,7 +12,7 @@ const TITLE: Face = Face::bold(18.0);
 pub(super) const SUBTITLE: Face = Face::regular(12.5);
 pub(super) const TICK: Face = Face::regular(11.5);
 
-/// Lower edge of the axes.
+/// The lower edge of the axes.
 pub(super) const FLOOR: f64 = HEIGHT - 56.0;
 /// The least distance between ticks of errors.
 const TICKS_APART: f64 = 20.0;
@@ -22,7 +22,7 @@ pub(super) struct Palette {
     pub ink: RGBColor,
     pub faint: RGBColor,
     pub grid: RGBColor,
-    /// Dominated by the front.
+    /// Incumbents that the front dominates.
     pub dominated: RGBColor,
     pub front: RGBColor,
     pub incumbent: RGBColor,
@@ -30,7 +30,7 @@ pub(super) struct Palette {
     pub lines: [RGBColor; 7],
 }
 
-/// Colours of data are of the palette of Okabe and Ito, yellow darkened on white.
+/// Data has the colours of Okabe and Ito's palette, yellow darkened on white.
 const LIGHT: Palette = Palette {
     paper: RGBColor(255, 255, 255),
     ink: RGBColor(31, 35, 40),
@@ -88,8 +88,8 @@ pub(super) struct Frame<'a> {
 }
 
 impl Frame<'_> {
-    /// As wide as the ticks of errors and what is written to the right leave, as high as the
-    /// heading does.
+    /// Returns the area of the axes: as wide as the ticks of errors and the text to the right
+    /// permit, as high as the heading does.
     pub(super) fn axes(subtitle: &str, errors: &Errors, beside: f64) -> Area {
         let top = if subtitle.is_empty() { 82.0 } else { 104.0 };
         let ticks = errors.ticks(TICKS_APART / (FLOOR - top));

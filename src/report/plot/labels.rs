@@ -1,13 +1,14 @@
-//! Where the names of markers go: beside them, over nothing, inside the plot.
+//! Placement of markers' names: beside them, over nothing, inside the plot.
 
 use super::canvas::Point;
 
-/// Between a marker's centre and its label.
+/// The distance between a marker's centre and its label.
 const GAP: f64 = 9.0;
 const SHIFTS: [f64; 7] = [0.0, 9.0, 18.0, 30.0, 44.0, 60.0, 80.0];
 const ROUNDS: usize = 4;
 
-/// How bad it is that a label is nearer to another's marker, and that a leader crosses a label.
+/// The penalties of a label that is nearer to another's marker, and of a leader that crosses a
+/// label. By hand, unmeasured.
 const AMBIGUOUS: f64 = 25.0;
 const CROSSED: f64 = 60.0;
 
@@ -24,7 +25,7 @@ impl Area {
         Area { left: x - radius, top: y - radius, right: x + radius, bottom: y + radius }
     }
 
-    /// What a line between two points covers, along an axis.
+    /// Returns what a line between two points covers, along an axis.
     pub(super) fn along(from: Point, to: Point, radius: f64) -> Area {
         let (from, to) = (Area::around(from, radius), Area::around(to, radius));
         Area {
@@ -49,7 +50,7 @@ impl Area {
         self.bottom - self.top
     }
 
-    /// The point of the area nearest to another.
+    /// Returns the point of the area nearest to another.
     pub(super) fn nearest(&self, (x, y): Point) -> Point {
         (x.max(self.left).min(self.right), y.max(self.top).min(self.bottom))
     }
@@ -59,7 +60,7 @@ impl Area {
         (x - to.0).hypot(y - to.1)
     }
 
-    /// Moved inside another, as far as it fits.
+    /// Moves the area inside another, as far as it fits.
     fn inside(&self, bounds: &Area) -> Area {
         let left = self.left.min(bounds.right - self.width()).max(bounds.left);
         let top = self.top.min(bounds.bottom - self.height()).max(bounds.top);
@@ -67,7 +68,7 @@ impl Area {
     }
 }
 
-/// Something not to write over, and how bad that would be.
+/// An area to keep free, and the penalty of writing over it.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Obstacle {
     pub area: Area,
@@ -82,8 +83,8 @@ pub(super) struct Label {
     pub height: f64,
 }
 
-/// An area for each label: the best of what falls to them from the left, from the top and from
-/// the bottom.
+/// Returns an area for each label: the best of three placements, which go through the labels from
+/// the left, from the top and from the bottom.
 pub(super) fn place(labels: &[Label], obstacles: &[Obstacle], bounds: &Area) -> Vec<Area> {
     let crowd = Crowd { labels, obstacles, bounds };
     let ordered = |key: fn(&Label) -> f64| {
@@ -103,7 +104,7 @@ struct Crowd<'a> {
 }
 
 impl Crowd<'_> {
-    /// Each label in turn takes the best place that the others leave, a few times over.
+    /// Gives each label in turn the best place that the others leave, several times over.
     fn settled(&self, order: &[usize]) -> Vec<Area> {
         let mut placed: Vec<Option<Area>> = vec![None; self.labels.len()];
         for i in (0..ROUNDS).flat_map(|_| order.iter().copied()) {
@@ -120,7 +121,7 @@ impl Crowd<'_> {
         areas.iter().enumerate().map(|(i, area)| self.cost(i, area, &placed)).sum()
     }
 
-    /// How bad an area is for a label where others are placed.
+    /// Returns the penalty of an area for a label, given the places of the others.
     fn cost(&self, i: usize, area: &Area, placed: &[Option<Area>]) -> f64 {
         let own = area.distance(self.labels[i].marker);
         let over = |o: &Obstacle| o.weight * area.overlap(&o.area);
@@ -136,7 +137,7 @@ impl Crowd<'_> {
     }
 }
 
-/// One label over another, or its leader.
+/// Returns the penalty of one label over another, or over its leader.
 fn against(label: &Label, area: &Area, other: &Label, at: &Area) -> f64 {
     let over = |from: &Label, way: &Area, met: &Area| {
         if crosses(from.marker, way.nearest(from.marker), met) { CROSSED } else { 0.0 }
@@ -144,7 +145,7 @@ fn against(label: &Label, area: &Area, other: &Label, at: &Area) -> f64 {
     20.0 * area.overlap(at) + over(label, area, at) + over(other, at, area)
 }
 
-/// Whether the way from a marker to its label leads over another label.
+/// Returns true if the leader from a marker to its label crosses another label.
 fn crosses(from: Point, to: Point, other: &Area) -> bool {
     (1..=16).any(|i| {
         let part = f64::from(i) / 17.0;
@@ -153,7 +154,7 @@ fn crosses(from: Point, to: Point, other: &Area) -> bool {
     })
 }
 
-/// Right, left, above and below, then the same ever further away.
+/// Returns the places right, left, above and below, then the same ever further away.
 fn candidates(label: &Label, bounds: &Area) -> Vec<Area> {
     let (x, y) = label.marker;
     let (width, height) = (label.width, label.height);

@@ -8,7 +8,7 @@ use super::{LinePlot, PlotError};
 
 const NAME: Face = Face::regular(12.0);
 const LONGEST_NAME: f64 = 150.0;
-/// Between a line's end and its name, and between two names.
+/// The distances between a line's end and its name, and between two names.
 const GAP: f64 = 7.0;
 const LEADING: f64 = 15.0;
 /// The least distance between ticks of the abscissa.
@@ -62,10 +62,10 @@ pub(super) fn lines<S: Surface>(plot: &LinePlot, canvas: &mut Canvas<S>) -> Resu
     Ok(())
 }
 
-/// Ascending places moved so that each is at least `leading` below the one before, close to
-/// where they were: those that are too near share the move.
+/// Moves ascending places so that each is at least `leading` below the one before, close to where
+/// they were: those that are too near share the move.
 fn apart(places: &[f64], leading: f64) -> Vec<f64> {
-    // Groups of their first place and number; a group that meets the one before joins it.
+    // Groups: first place and number; a group that meets the one before joins it.
     let mut groups: Vec<(f64, usize)> = Vec::new();
     for &place in places {
         let mut group = (place, 1);

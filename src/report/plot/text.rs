@@ -4,7 +4,7 @@ use crate::printable::is_hidden;
 use ab_glyph::{Font, FontRef, Glyph, PxScale, ScaleFont, point};
 use std::sync::LazyLock;
 
-/// For SVG, whose reader may not have the first.
+/// The families in SVG, whose reader may not have the first.
 pub(in crate::report) const FAMILY: &str = "DejaVu Sans, Verdana, Geneva, sans-serif";
 
 static REGULAR: LazyLock<Option<FontRef>> =
@@ -43,7 +43,7 @@ impl Face {
         self.set(text).1
     }
 
-    /// Coverage of each pixel, where the text begins at 0 on the baseline.
+    /// Calls `pixel` with the coverage of each pixel, the text beginning at 0 on the baseline.
     pub(in crate::report) fn rasterise(self, text: &str, mut pixel: impl FnMut(i32, i32, f32)) {
         let Some(font) = self.font() else { return };
         let outlined = |glyph| font.outline_glyph(glyph);
@@ -53,7 +53,7 @@ impl Face {
         }
     }
 
-    /// The text, or as much of its beginning as fits, with an ellipsis.
+    /// Returns the text, or as much of its beginning as fits, with an ellipsis.
     pub(in crate::report) fn fitted(self, text: &str, width: f64) -> String {
         let mut kept: String = text.chars().map(printable).collect();
         if self.width(&kept) <= width {
@@ -74,11 +74,11 @@ impl Face {
         }
     }
 
-    /// Glyphs along the baseline, and where the next would begin.
+    /// Returns glyphs along the baseline, and where the next would begin.
     fn set(self, text: &str) -> (Vec<Glyph>, f64) {
         let Some(font) = self.font() else { return (Vec::new(), 0.0) };
         let units = font.units_per_em().unwrap_or(2048.0);
-        // A size of ab_glyph is that of a line, not that of the em square.
+        // ab_glyph's size is that of a line, not of the em square.
         let scale = PxScale::from(self.size as f32 * font.height_unscaled() / units);
         let font = font.as_scaled(scale);
         let (mut glyphs, mut pen) = (Vec::<Glyph>::new(), 0.0);
@@ -92,7 +92,7 @@ impl Face {
     }
 }
 
-/// XML knows no control characters, and others turn the text around them.
+/// Replaces control characters, which XML does not know, and others that turn the text around them.
 fn printable(character: char) -> char {
     match character {
         hidden if is_hidden(hidden) => ' ',

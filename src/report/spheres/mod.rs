@@ -1,8 +1,9 @@
 //! Spheres shaded with a formula, and with the table that it stands for.
 //!
-//! What a pixel gives to the formula, and what becomes of its outputs, is formula text itself, so that
-//! one source is evaluated here and emitted as GLSL for the page: both draw the same spheres.
-//! Directions: x to the right, y up, z to the viewer, who is far away, so v = (0, 0, 1).
+//! The inputs of the formula at a pixel, and the light made of its outputs, are formula text
+//! themselves. This one source is evaluated here and emitted as GLSL for the page, so both draw the
+//! same spheres. Directions: x to the right, y up, z to the viewer, who is far away, so v = (0, 0,
+//! 1).
 
 mod picture;
 mod shading;
@@ -18,16 +19,16 @@ use crate::eval::{Evaluator, Samples, Tape};
 use crate::program::{Arg, Names, Program, effective};
 use serde::Serialize;
 
-/// What the reader can turn.
+/// Settings that a reader of the page can change.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct Settings {
-    /// Perceptual; alpha = roughness².
+    /// Perceptual roughness; alpha = roughness².
     pub roughness: f32,
     /// Reflectance at normal incidence.
     pub f0: f32,
     /// Full angle of a spherical light's cone, in radians.
     pub omega: f32,
-    /// In stops.
+    /// Exposure, in stops.
     pub exposure: f32,
 }
 
@@ -37,14 +38,16 @@ impl Default for Settings {
     }
 }
 
-/// What a sphere's material computes.
+/// The source of a sphere's material.
 #[derive(Clone, Copy, Debug)]
 pub enum Material<'a> {
+    /// A formula over the dataset's columns.
     Formula(&'a Program),
+    /// The dataset itself, interpolated.
     Table(&'a SphereTable),
 }
 
-/// How spheres are shaded with what a dataset's columns mean.
+/// The shading of spheres with a dataset's columns.
 #[derive(Clone, Debug)]
 pub struct Spheres {
     /// From a pixel to the dataset's inputs.
@@ -53,12 +56,11 @@ pub struct Spheres {
     light: (Program, Names),
 }
 
-/// The radius, where half the width of a picture is 1.
+/// The radius of a sphere, where half the width of a picture is 1.
 pub(crate) const RADIUS: f32 = 0.94;
 
 impl Spheres {
-    /// Nothing if the columns are none that a material is known for. Beyond an input's domain its ends
-    /// are taken.
+    /// Returns none if no material is known for the columns. Inputs are clamped to their domains.
     pub fn of(inputs: &[Column], outputs: &[Column], environment: Environment) -> Option<Spheres> {
         let outputs: Vec<String> = outputs.iter().map(|column| column.name.clone()).collect();
         let given = shading::given(inputs)?;
@@ -66,7 +68,7 @@ impl Spheres {
         Some(Spheres { given, light })
     }
 
-    /// Whether what is drawn depends on [`Settings::f0`].
+    /// Returns true if the picture depends on [`Settings::f0`].
     pub fn uses_f0(&self) -> bool {
         let f0 = Arg::Input(4);
         [&self.given.0, &self.light.0].into_iter().any(|program| {
@@ -75,13 +77,13 @@ impl Spheres {
         })
     }
 
-    /// Whether what is drawn depends on the environment.
+    /// Returns true if the picture depends on the environment.
     pub(crate) fn has_environments(outputs: &[String]) -> bool {
         shading::has_environment(outputs)
     }
 
-    /// The displayed colour, in [0, 1], of each pixel of a square, row by row from the top; outside the
-    /// sphere what the nearest place on its rim has.
+    /// Returns the displayed colour, in [0, 1], of each pixel of a square, row by row from the top;
+    /// outside the sphere, the colour of the nearest place on its rim.
     pub fn shade(&self, material: Material, settings: &Settings, size: usize) -> Vec<[f32; 3]> {
         let pixels = pixels(size);
         let constant = |value: f32| vec![value; size * size];
@@ -98,7 +100,8 @@ impl Spheres {
         (0..size * size).map(|i| [0, 1, 2].map(|channel| displayed[channel][i])).collect()
     }
 
-    /// GLSL of what comes before and after a formula: two functions, `sphere_given` and `sphere_light`.
+    /// Returns the GLSL before and after a formula: two functions, `sphere_given` and
+    /// `sphere_light`.
     pub fn glsl(&self) -> [String; 2] {
         let function = |(program, names): &(Program, Names), function: &str| {
             emit(Language::Glsl, &Snippet { program, names, function, header: &[] })
@@ -107,7 +110,7 @@ impl Spheres {
     }
 }
 
-/// x, y and z of the normal at each pixel's centre.
+/// Returns x, y and z of the normal at each pixel's centre.
 fn pixels(size: usize) -> [Vec<f32>; 3] {
     let mut normal = [const { Vec::new() }; 3];
     for row in 0..size {
@@ -129,7 +132,7 @@ fn values(program: &Program, columns: Vec<Vec<f32>>) -> Vec<Vec<f32>> {
     Evaluator::default().outputs(&Tape::new(program), &Samples::new(&split, inputs))
 }
 
-/// Root mean square difference of two pictures' colours, within the spheres.
+/// Returns the root mean square difference of two pictures' colours, within the spheres.
 pub fn displayed_rmse(a: &[[f32; 3]], b: &[[f32; 3]], size: usize) -> f64 {
     let within = |i: &usize| {
         let centre = |i: usize| i as f32 + 0.5 - size as f32 / 2.0;
@@ -140,10 +143,10 @@ pub fn displayed_rmse(a: &[[f32; 3]], b: &[[f32; 3]], size: usize) -> f64 {
     (squares.iter().sum::<f64>() / (3 * squares.len()) as f64).sqrt()
 }
 
-/// By so much is a difference of displayed colours magnified.
+/// The magnification of differences of displayed colours. By hand, unmeasured.
 pub(crate) const DIFFERENCE_TIMES: f32 = 3.0;
 
-/// The magnified absolute difference of two pictures.
+/// Returns the magnified absolute difference of two pictures.
 pub fn difference(a: &[[f32; 3]], b: &[[f32; 3]]) -> Vec<[f32; 3]> {
     let each = |(a, b): (&[f32; 3], &[f32; 3])| {
         [0, 1, 2].map(|c| (DIFFERENCE_TIMES * (a[c] - b[c]).abs()).min(1.0))

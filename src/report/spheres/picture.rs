@@ -5,13 +5,18 @@ use crate::report::plot::text::Face;
 use crate::report::plot::{PlotError, Theme};
 use crate::report::raster::{Inks, Raster};
 
-/// What is written above and beside the spheres.
+/// The text above and beside the spheres.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Labels {
+    /// The first line of the heading.
     pub title: String,
+    /// The second line of the heading.
     pub subtitle: String,
+    /// The title of each row.
     pub rows: Vec<String>,
+    /// The title of each column.
     pub columns: Vec<String>,
+    /// The colours.
     pub theme: Theme,
 }
 
@@ -20,8 +25,8 @@ const SIDE: usize = 24;
 const HEADING: usize = 96;
 const ROW_HEADING: usize = 28;
 
-/// A PNG of squares of `size` pixels, row by row, each the colours of [`super::Spheres::shade`]; without
-/// labels the squares alone, side by side.
+/// Returns a PNG of squares of `size` pixels, row by row, each the colours of
+/// [`super::Spheres::shade`]; without labels, the squares alone, side by side.
 ///
 /// # Errors
 /// Those of encoding.

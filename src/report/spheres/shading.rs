@@ -1,14 +1,14 @@
-//! What light falls on a sphere, and what a dataset's columns are on it, as formula text.
+//! The light on a sphere, and the meaning of a dataset's columns there, as formula text.
 //!
-//! The environments are analytic, and blurred by roughness in closed form: no exact convolution, but
-//! the same for the truth and for a formula, which is what is compared.
+//! The environments are analytic, and blurred by roughness in closed form. That is no exact
+//! convolution, but the same for the truth and for a formula, which are compared.
 
 use crate::dataset::Column;
 use crate::program::{Names, Program, parse};
 use std::fmt;
 use std::str::FromStr;
 
-/// What surrounds the sphere.
+/// The surroundings of the sphere.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Environment {
     /// Radiance 1 from everywhere: the directional albedo itself.
@@ -21,6 +21,7 @@ pub enum Environment {
 }
 
 impl Environment {
+    /// All environments.
     pub const ALL: [Environment; 3] = [Environment::Uniform, Environment::Sky, Environment::Studio];
 
     fn text(self) -> &'static str {
@@ -51,7 +52,7 @@ impl FromStr for Environment {
     }
 }
 
-/// The normal, and what can be turned.
+/// The normal, and the settings.
 const PIXEL: [&str; 7] = [
     "normal_x",
     "normal_y",
@@ -62,8 +63,8 @@ const PIXEL: [&str; 7] = [
     "turned_exposure",
 ];
 
-/// The columns that a pixel can be given; a point light stands to the upper left, before the sphere.
-/// The normal's own reflection of v is (2xz, 2yz, 2z² − 1).
+/// The columns known at a pixel; a point light stands to the upper left, before the sphere. The
+/// normal's own reflection of v is (2xz, 2yz, 2z² − 1).
 const GIVEN: &str = "
     at_n_dot_v = max(normal_z, .001)
     at_v_dot_h = at_n_dot_v
@@ -81,7 +82,7 @@ const GIVEN: &str = "
 const UNIFORM: &str = "
     env_red = 1; env_green = 1; env_blue = 1";
 
-/// The sun is a spherical Gaussian, its sharpness that of the lobe and the disc together.
+/// The sky; the sun is a spherical Gaussian, its sharpness that of the lobe and the disc together.
 const SKY: &str = "
     blur = .03 + .9*width
     t = saturate(.5 + .5*ry/blur)
@@ -93,8 +94,8 @@ const SKY: &str = "
     env_green = lerp(.14, lerp(.97, .34, k), s) + .93*glow
     env_blue = lerp(.12, lerp(1, .85, k), s) + .8*glow";
 
-/// A large softbox to the left, a narrow one to the right, a strip above, with edges as soft as the
-/// lobe is wide.
+/// The studio: a large softbox to the left, a narrow one to the right, a strip above, with edges as
+/// soft as the lobe is wide.
 const STUDIO: &str = "
     blur = .04 + 1.1*width
     key = -.62*rx + .48*ry + .62*rz
@@ -119,15 +120,15 @@ const REFLECTED: &str = "
     ry = 2*normal_y*normal_z
     rz = 2*normal_z^2 - 1";
 
-/// Directional albedo, that of the split sum, times what is reflected.
+/// Directional albedo, that of the split sum, times the reflected light.
 const ALBEDO: &str = "
     linear_red = env_red*albedo; linear_green = env_green*albedo; linear_blue = env_blue*albedo";
 
-/// Warm light of one lamp.
+/// The warm light of a lamp.
 const LAMP: &str = "
     linear_red = lit; linear_green = .94*lit; linear_blue = .82*lit";
 
-/// Exposed, clipped, and encoded as sRGB (IEC 61966-2-1).
+/// The displayed colour: exposed, clipped, and encoded as sRGB (IEC 61966-2-1).
 const DISPLAYED: &str = "
     gain = exp2(turned_exposure)
     r = saturate(gain*linear_red)
@@ -137,7 +138,7 @@ const DISPLAYED: &str = "
     green = saturate(select(g < .0031308, 12.92*g, 1.055*pow(max(g, .00001), .41666667) - .055))
     blue = saturate(select(b < .0031308, 12.92*b, 1.055*pow(max(b, .00001), .41666667) - .055))";
 
-/// Which outputs, whether they are lit by the environment, and what is made of them.
+/// Outputs, true if the environment lights them, and the light made of them.
 const SCENES: [(&[&str], bool, &str); 9] = [
     (&["scale", "bias"], true, "albedo = turned_f0*scale + bias"),
     (&["scale"], true, "albedo = turned_f0*scale"),
@@ -177,7 +178,7 @@ const SCENES: [(&[&str], bool, &str); 9] = [
     ),
 ];
 
-/// From a pixel to columns, each within its domain.
+/// Returns the program from a pixel to columns, each within its domain.
 pub(super) fn given(inputs: &[Column]) -> Option<(Program, Names)> {
     let names = Names::new(PIXEL, inputs.iter().map(|input| input.name.as_str()));
     let clamped = inputs.iter().map(|Column { name, domain: [low, high], .. }| {
@@ -191,7 +192,7 @@ pub(super) fn has_environment(outputs: &[String]) -> bool {
     SCENES.iter().any(|(known, environment, _)| *environment && outputs == *known)
 }
 
-/// From a pixel and outputs to what is displayed.
+/// Returns the program from a pixel and outputs to the displayed colour.
 pub(super) fn light(outputs: &[String], environment: Environment) -> Option<(Program, Names)> {
     let (_, lit_by_it, made) = SCENES.iter().find(|(known, _, _)| outputs == *known)?;
     let parts = match lit_by_it {

@@ -3,21 +3,22 @@
 use crate::dataset::Dataset;
 use serde::Serialize;
 
-/// The grid of a dataset, interpolated linearly; the validation split's where it is one, since that
-/// reaches the domain's edges.
+/// The grid of a dataset, interpolated linearly; that of the validation split if it is one, since
+/// it reaches the domain's edges.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct SphereTable {
     /// Points along each input, the first varying slowest.
     grid: Vec<usize>,
-    /// By input: the first three places (of which the first may stand closer to the second than the
-    /// others to each other), and the last.
+    /// By input: the first three places (the first may be closer to the second than others are to
+    /// each other), and the last.
     axes: Vec<[f32; 4]>,
-    /// By output.
+    /// The values by output.
     values: Vec<Vec<f32>>,
 }
 
 impl SphereTable {
-    /// Nothing if neither split is a grid, or its places are not evenly spaced but for the first.
+    /// Returns none if neither split is a grid, or its places are not evenly spaced except for the
+    /// first.
     pub fn of(dataset: &Dataset) -> Option<SphereTable> {
         let inputs = dataset.inputs.len();
         let splits = [&dataset.validation, &dataset.search];
@@ -42,7 +43,7 @@ impl SphereTable {
         Some(SphereTable { grid: split.grid.clone(), axes, values })
     }
 
-    /// The outputs at rows of inputs.
+    /// Returns the outputs at rows of inputs.
     pub(super) fn read(&self, inputs: &[Vec<f32>]) -> Vec<Vec<f32>> {
         let rows = inputs.first().map_or(0, Vec::len);
         let mut outputs = vec![Vec::with_capacity(rows); self.values.len()];
@@ -57,7 +58,7 @@ impl SphereTable {
         outputs
     }
 
-    /// The point below a place, and how far it is towards the next.
+    /// Returns the point below a place, and the fraction of the way to the next.
     fn cell(&self, axis: usize, place: f32) -> (usize, f32) {
         let [first, second, third, last] = self.axes[axis];
         if place < second {

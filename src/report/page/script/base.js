@@ -1,6 +1,6 @@
-// What is shown.
+// The state of the page: what is shown.
 
-/** What is looked at: `published` in place of a member of the front if it is set. */
+/** The selection; `published`, if set, takes the place of a member of the front. */
 const state = {
   axis: data.profile, front: 0, published: false, index: data.fronts[0].knee,
   language: 0, logarithmic: false, sort: { column: "cost", descending: false },

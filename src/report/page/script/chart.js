@@ -15,7 +15,7 @@ function linear(low, high) {
   return { place, ticks, invert: (p) => low + p * (high - low) };
 }
 
-/** Logarithmic above `low`; what is not, zero too, is at its foot. */
+/** A logarithmic scale above `low`; values below it, zero too, stand at its foot. */
 function logarithmic(low, high) {
   const [from, to] = [Math.log10(low), Math.log10(high)];
   const place = (value) => (value > low ? (Math.log10(value) - from) / (to - from || 1) : 0);
@@ -51,7 +51,7 @@ function logarithmicOver(values, room = 0.06) {
   return logarithmic(10 ** (low - margin), 10 ** (high + margin));
 }
 
-/** Axes as wide as the box: an `svg` and where values lie in it. */
+/** Draws axes as wide as the box: returns an `svg` and the places of values in it. */
 function chart(box, { xScale, yScale, xLabel, yLabel, height, right = 12, describe }) {
   const width = Math.max(240, box.clientWidth || 600);
   const yTicks = yScale.ticks(Math.max(3, Math.floor(height / 40)));

@@ -28,7 +28,7 @@ const at = (run, series, moment) => {
 
 function drawBands(box, xScale, yScale, xLabel, yLabel, groups, stepped) {
   const widest = Math.max(...data.groups.map(({ label }) => label.length));
-  // Where there is little room the table says which colour is which.
+  // If there is little room, the table alone names the colours.
   const named = box.clientWidth > 8 * widest + 320;
   const right = named ? 14 + 7 * widest : 12;
   const { root, x, y, area } = chart(box, { xScale, yScale, xLabel, yLabel, height: 380, right });

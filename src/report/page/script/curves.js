@@ -1,4 +1,4 @@
-// Errors along each input, their histogram, and how the search went on.
+// Errors along each input, their histogram, and the progress of the search.
 
 function drawProfiles() {
   const box = byId("profiles");
@@ -88,7 +88,7 @@ function drawConvergence() {
   const units = { seconds: "seconds", considered: "candidates considered" };
   const plots = html("div", { class: "pair", style: "grid-template-columns:repeat(auto-fit,minmax(min(100%,420px),1fr))" });
   const keys = Object.keys(units);
-  box.replaceChildren(html("h2", {}, "How the search went on"), html("div", { class: "row" }, choice("against", Object.values(units), keys.indexOf(state.time), (i) => { state.time = keys[i]; drawConvergence(); })), plots);
+  box.replaceChildren(html("h2", {}, "Progress of the search"), html("div", { class: "row" }, choice("against", Object.values(units), keys.indexOf(state.time), (i) => { state.time = keys[i]; drawConvergence(); })), plots);
   const boxes = [html("div", { class: "plot" }), html("div", { class: "plot" })];
   plots.append(...boxes);
   const panel = (plot, yScale, yLabel, lines, right) => {

@@ -8,7 +8,7 @@ function element(space, tag, attributes, children) {
   for (const [name, value] of Object.entries(attributes)) {
     if (typeof value === "function") made.addEventListener(name, value);
     else if (value === true) made.setAttribute(name, "");
-    // The page's policy takes styles from its own script alone.
+    // The page's policy permits styles only from its own script.
     else if (name === "style") made.style.cssText = value;
     else if (value !== false && value !== null && value !== undefined) made.setAttribute(name, value);
   }
@@ -18,7 +18,7 @@ function element(space, tag, attributes, children) {
 const html = (tag, attributes = {}, ...children) => element(null, tag, attributes, children);
 const svg = (tag, attributes = {}, ...children) => element("http://www.w3.org/2000/svg", tag, attributes, children);
 
-/** As tables of `lgp front` have it: five decimals, or two digits where that would say little. */
+/** Formats an error as `lgp front` does: five decimals, or two digits if that would say little. */
 function errorText(value) {
   if (value === null || value === undefined || !Number.isFinite(value)) return "not finite";
   if (value === 0) return "0";

@@ -1,4 +1,4 @@
-// The selected formula: what it costs, how it errs, its text in each language; and the table of all.
+// The selected formula: its cost, its errors, its text in each language; and the table of all.
 
 function codeText(one, language) {
   const { comment, body } = one.code[language];
@@ -18,7 +18,7 @@ function drawFormula() {
   const one = formula(), box = byId("formula");
   if (!one) { box.replaceChildren(html("h2", {}, "No formula"), html("p", { class: "note" }, "The front is empty.")); return; }
   const heading = state.published ? one.name : `Formula ${state.index + 1} of ${formulas().length}`;
-  const step = (by) => html("button", { type: "button", title: by < 0 ? "the one before" : "the next", click: () => select(state.published, state.index + by) }, by < 0 ? "‹" : "›");
+  const step = (by) => html("button", { type: "button", title: by < 0 ? "previous formula" : "next formula", click: () => select(state.published, state.index + by) }, by < 0 ? "‹" : "›");
   const emitted = `lgp emit ${folder()} ${front().option ? front().option + " " : ""}--lang ${data.languages[state.language]} --pick ${state.index + 1}`;
   const math = html("div", { class: "math", id: "math" });
   math.innerHTML = one.mathml;

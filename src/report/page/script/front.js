@@ -24,7 +24,7 @@ function drawFront() {
   const seen = tables.filter((table) => table.error[measure()] > least / 8);
   const xScale = state.logarithmic ? logarithmic(cheapest / 1.6, costliest * 1.1) : linear(0, costliest);
   const yScale = logarithmicOver([...shown.map((p) => p[1]), ...seen.map((table) => table.error[measure()])]);
-  // Beside the formula as high as that, so far as it is a plot and no tower.
+  // As high as the formula beside it, unless the plot would be a tower.
   const beside = byId("formula").offsetTop === byId("front").offsetTop ? byId("formula").offsetHeight - 130 : 0;
   const height = Math.max(320, Math.min(Math.max(520, beside), box.clientWidth * 0.86, 680));
   const { root, area, x, y, width } = chart(box, {
@@ -116,7 +116,7 @@ function drawKey(published, tables) {
   const sample = (...shapes) => svg("svg", { viewBox: "0 0 22 12" }, ...shapes);
   const items = [[sample(svg("path", { class: "staircase", d: "M0 6H22" }), svg("circle", { class: "member", cx: 11, cy: 6, r: 4.5 })), `Pareto front in ${measureTitle()}`]];
   if (published) items.push([sample(svg("path", { class: "published", d: diamond(11, 6, 6) })), "published formulas"]);
-  if (tables) items.push([sample(svg("path", { class: "texture", d: "M0 6H22" })), "a texture of so many texels, read with linear filtering"]);
+  if (tables) items.push([sample(svg("path", { class: "texture", d: "M0 6H22" })), "texture with this many texels, filtered linearly"]);
   byId("front-cut").textContent = front().cut;
   byId("front-key").replaceChildren(...items.map(([mark, text]) => html("span", {}, mark, text)));
 }

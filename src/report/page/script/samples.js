@@ -1,4 +1,4 @@
-// The samples, and what formulas make of them.
+// The samples, and the values of formulas there.
 
 const samples = (() => {
   const table = data.samples;
@@ -61,12 +61,12 @@ function errorsOf(f) {
   });
 }
 
-/** The rows in each cell of the plane of two inputs, the others where `state.at` is. */
+/** Returns the rows in each cell of the plane of two inputs, with the others at `state.at`. */
 function plane(x, y) {
   const [columns, lines] = [samples.axes[x].places.length, x === y ? 1 : samples.axes[y].places.length];
   const cells = Array.from({ length: columns * lines }, () => []);
   const others = data.inputs.map((_, i) => i).filter((i) => i !== x && i !== y);
-  // A slice of a grid; of other rows all, since few have the same values.
+  // A slice of a grid; or all rows, if there is no grid, since few have the same values.
   const fixed = samples.gridded ? others.map((i) => [samples.axes[i].of, sliceOf(i)]) : [];
   for (let row = 0; row < samples.rows; row++) {
     if (fixed.every(([of, place]) => of[row] === place)) {

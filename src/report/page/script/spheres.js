@@ -155,7 +155,7 @@ function drawSpheres() {
   drawOrHide(size());
 }
 
-/** The three spheres' pixels, for whoever compares them with `lgp render`. */
+/** Returns the three spheres' pixels, for comparison with `lgp render`. */
 window.lgpSpheres = (settings, size) => {
   Object.assign(lights, settings);
   return spheres ? spheres.pixels(size) : null;
