@@ -272,7 +272,7 @@ fn comments_are_held_to_what_they_say() {
         (format!("// {formula}\n// was: bias = 1"), 3, "line 2: a comment gives `bias` a value"),
         (format!("// {formula}\n// bias = 1"), 3, "lines 1 and 2 are both the formula"),
         (format!("// formula: {formula}\n// bias = 1"), 0, ""),
-        (format!("// formula: {formula}\n// formula: {formula}"), 3, "lines 1 and 2 both"),
+        (format!("// formula: {formula}\n// formula: {formula}"), 3, "lines 1 and 2 are both"),
         (format!("// formula: {formula})"), 3, "line 1: the formula in the comment cannot be read"),
         ("// formula:".to_owned(), 3, "line 1: the formula in the comment cannot be read"),
         (format!("// formula: {}", formula.replace('7', "7.5")), 4, "(line 1)"),
