@@ -67,7 +67,7 @@ To begin:
   lgp verify dfg.wgsl dfg.bin --max-error 0.01
                                 check a shader file against the data, in your CI
 
-`lgp COMMAND --help` explains a command, `lgp COMMAND -h` in short.
+`lgp search --help` explains a command, `lgp search -h` in short; so do all others.
 
 Exit codes: 0 done, 1 failed, 2 usage, 3 unusable input, 4 a target asked for
 was not met, 130 interrupted.";
