@@ -20,7 +20,7 @@ use std::path::PathBuf;
 pub struct Args {
     /// A run: a folder that `lgp search` or `lgp merge` wrote
     run: PathBuf,
-    /// How many subexpressions to show
+    /// The number of subexpressions to show
     #[arg(long, value_name = "N", default_value_t = 20)]
     top: usize,
 }

@@ -30,12 +30,12 @@ impl From<Exit> for ExitCode {
     }
 }
 
-/// Why a command was not done, for the person who called it.
+/// The reason why a command was not done, for the person who called it.
 #[derive(Debug)]
 pub struct Failure {
-    /// What the process returns.
+    /// The exit code.
     pub exit: Exit,
-    /// What is shown, with its causes.
+    /// The error to show, with its causes.
     pub error: anyhow::Error,
 }
 

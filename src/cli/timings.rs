@@ -1,4 +1,4 @@
-//! How long the phases of a run took.
+//! The time that the phases of a run took.
 
 use std::fmt;
 use std::time::Instant;

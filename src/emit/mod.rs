@@ -63,7 +63,7 @@ use syntax::Syntax;
 /// A function to be written.
 #[derive(Clone, Copy, Debug)]
 pub struct Snippet<'a> {
-    /// What the function computes.
+    /// The program that the function computes.
     pub program: &'a Program,
     /// Names for each input and output of the program.
     pub names: &'a Names,

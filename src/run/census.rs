@@ -49,7 +49,7 @@ pub struct Recurring {
     pub count: u64,
     /// The share of all formulas, in [0, 1].
     pub share: f64,
-    /// When it was first seen, in seconds.
+    /// The time it was first seen, in seconds.
     pub first: f64,
 }
 

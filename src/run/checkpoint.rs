@@ -32,7 +32,7 @@ pub struct Checkpoint {
     pub state: State,
     /// The text of `trace.csv` so far.
     pub trace: String,
-    /// What recurs in its formulas so far.
+    /// The census of its formulas so far.
     pub census: Census,
 }
 

@@ -1,4 +1,4 @@
-//! When a search without a budget is over.
+//! The stopping rule of a search without a budget.
 
 use super::TracePoint;
 

@@ -29,7 +29,7 @@ pub struct MemberRecord {
     pub errors: BTreeMap<String, OutputError>,
     /// The errors by output, on the validation split.
     pub validation_errors: BTreeMap<String, OutputError>,
-    /// What is proved of it, or refuted.
+    /// The verdict.
     #[serde(default)]
     pub verdict: VerdictRecord,
     /// Its text.

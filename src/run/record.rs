@@ -48,9 +48,9 @@ pub struct Run {
     /// The GPU profile as it was; records of an older version lack it.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub profile: Option<Profile>,
-    /// What was asked of formulas.
+    /// The measure and requirements that were asked for.
     pub goal: Goal,
-    /// How they were searched.
+    /// The settings of the search.
     pub method: Method,
     /// The formulas that it started from, as given.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
@@ -58,7 +58,7 @@ pub struct Run {
     /// The cycles up to which all formulas were to be tried.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub exhaustive: Option<f64>,
-    /// What it might spend.
+    /// The limits of its time and generations.
     #[serde(default)]
     pub budget: Budget,
     /// The machine that it ran on.

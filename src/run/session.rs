@@ -103,7 +103,7 @@ pub struct Outcome {
     pub minimax: Front,
     /// The text of `trace.csv`.
     pub trace: String,
-    /// What recurs in its formulas.
+    /// The census of its formulas.
     pub census: Census,
     /// The number of formulas in the search's archive.
     pub archived: usize,

@@ -35,7 +35,7 @@ pub struct ReadError {
     pub line: usize,
     /// The column in characters, from 1.
     pub column: usize,
-    /// What is wrong.
+    /// The reason.
     pub message: String,
     /// The text of the line.
     pub source_line: String,
@@ -63,7 +63,7 @@ pub enum Precision {
 /// A function that was read.
 #[derive(Clone, Debug)]
 pub struct ReadBack {
-    /// What the function computes.
+    /// The program that the function computes.
     pub program: Program,
     /// The names of the columns; those that are written differently are restored.
     pub names: Names,

@@ -28,7 +28,7 @@ pub struct Comparison {
 /// Runs that differ in nothing but their seeds.
 #[derive(Clone, Debug, Serialize)]
 pub struct Group {
-    /// What tells the group from the others.
+    /// The traits that tell the group from the others.
     pub label: String,
     /// The runs of the group.
     pub runs: Vec<ComparedRun>,

@@ -1,6 +1,6 @@
 //! The page of a run: one HTML file that needs nothing else, not even a network.
 //!
-//! What can be computed is: the page holds the samples and each formula as JavaScript in f32
+//! The page holds the samples and each formula as JavaScript in f32
 //! arithmetic ([`crate::emit::javascript()`]), and computes maps, profiles and histograms when they
 //! are looked at. It depends only on its arguments: no clock, no random number.
 
@@ -64,7 +64,7 @@ pub struct Page {
 pub struct CostAxis {
     /// The profile or device.
     pub name: String,
-    /// What it stands for.
+    /// A longer description.
     pub description: String,
     /// The unit of costs.
     pub unit: &'static str,
