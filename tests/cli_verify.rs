@@ -123,8 +123,8 @@ fn digits_are_counted_from_the_first_that_is_not_zero() {
     assert_eq!(constants("const float t0 = 1.5*x2 - 0.25;"), [17..20, 26..30]);
 }
 
-/// Every constant of every committed snippet: what is read back with its third digit changed must
-/// be told from the original. In the library, since there are thousands.
+/// Every constant of some snippets in each language: what is read back with its third digit changed must
+/// be told from the original. In the library, since there are hundreds.
 #[test]
 fn a_constant_changed_in_its_third_digit_is_caught() {
     let (mut tried, mut on_the_command_line) = (0, 0);

@@ -1,3 +1,5 @@
+//! The reasons why a scene cannot be used.
+
 use crate::dataset::{self, NameFault};
 use crate::grammar::FileError;
 use crate::printable::printable;

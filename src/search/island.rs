@@ -262,14 +262,14 @@ impl Island {
 
     /// Clamped outputs may be the cheapest way to what is required; around an outer form no child clamps.
     fn clamped(&mut self, problem: &Problem) -> Option<Individual> {
-        let Scratch { fitter, cost: scratch, candidate, .. } = &mut self.scratch;
+        let Scratch { fitter, cost: cost_scratch, candidate, .. } = &mut self.scratch;
         *candidate = problem.clamped(candidate).filter(|_| problem.outer.is_none())?;
         if !problem.structure_ok(candidate)
             || candidate.instrs.len() > problem.grammar.max_instructions
         {
             return None;
         }
-        let cost = problem.cost(candidate, scratch);
+        let cost = problem.cost(candidate, cost_scratch);
         let admission = self.population.admission(candidate, cost);
         let mut loss =
             fitter.fit(candidate, &self.race, MORE_STEPS) * (1.0 / self.race.total_weight());
@@ -345,7 +345,7 @@ impl Island {
 impl Scratch {
     /// Makes the child a candidate, effective code as the grammar writes it, and costs it.
     fn prepare(&mut self, problem: &Problem, max_cost: f64) -> Result<f64, Rejection> {
-        let Scratch { simplifier, cost: scratch, child, candidate, .. } = self;
+        let Scratch { simplifier, cost: cost_scratch, child, candidate, .. } = self;
         simplifier.simplify(child, candidate);
         if !is_written_in(candidate, problem) {
             simplifier.fold_constants(child, candidate);
@@ -355,7 +355,7 @@ impl Scratch {
         if candidate.instrs.len() > problem.grammar.max_instructions || !constants_are_finite {
             return Err(Rejection::TooLong);
         }
-        let cost = problem.cost_of_child(candidate, scratch);
+        let cost = problem.cost_of_child(candidate, cost_scratch);
         if cost > max_cost { Err(Rejection::TooExpensive) } else { Ok(cost) }
     }
 

@@ -86,7 +86,7 @@ impl Case {
     }
 }
 
-/// Every member of the committed front, on both splits of its dataset.
+/// Every member of a front of the fixtures, on both splits of its dataset.
 pub fn front() -> Vec<Case> {
     let root = Path::new(env!("CARGO_MANIFEST_DIR"));
     let folder = root.join("tests/fixtures/dfg");

@@ -9,9 +9,9 @@ use lgp::stability::{Questions, Status, StatusRecord, Verdict, VerdictRecord};
 use std::path::Path;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
-/// The committed front: everything finite is proved, and hardly anything is left open.
+/// A front of the fixtures: everything finite is proved, and hardly anything is left open.
 #[test]
-fn of_the_committed_front_all_but_little_is_decided() {
+fn of_a_front_all_but_little_is_decided() {
     let dataset = Dataset::load(Path::new("datasets/dfg.bin")).unwrap();
     let questions = Questions::of(&dataset.inputs, &dataset.outputs, &dataset.claims);
     assert_eq!(questions.ranges, [[0.0, 1.0]; 2]);
