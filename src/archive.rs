@@ -1,4 +1,4 @@
-//! The Pareto archive: for each cost the program of least error, none dominated.
+//! The Pareto archive: the program of least loss at each cost, none dominated.
 
 use crate::program::{Constants, Draft, structural_hash};
 use serde::{Deserialize, Serialize};
@@ -7,17 +7,16 @@ use std::cmp::Ordering;
 /// A program on the archive's axes.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Member {
-    /// Cycles, and penalties if the grammar has any.
+    /// Cycles, plus the grammar's penalties.
     pub cost: f64,
-    /// The search's loss; finite.
+    /// The search's loss, finite in an archive.
     pub loss: f64,
     /// The formula, over the searched columns.
     pub draft: Draft,
 }
 
 impl Member {
-    /// What decides between members of equal cost and loss, so that it does not matter which came
-    /// first.
+    /// Returns the key that orders members of equal cost and loss, whichever came first.
     fn tie_break(&self) -> (usize, u64) {
         let hash = structural_hash(&self.draft, Constants::Exact, &mut Vec::new());
         (self.draft.instrs.len(), hash)
@@ -32,8 +31,8 @@ impl Member {
     }
 }
 
-/// By rising cost, those that err less than every one that costs no more, of equals the first by `ties`; `place` gives
-/// cost and error.
+/// Returns those that err less than all that cost no more, by rising cost. `place` gives cost and
+/// error; of equals the first by `ties` stays.
 pub(crate) fn undominated<T>(
     all: Vec<T>,
     place: impl Fn(&T) -> (f64, f64),
@@ -42,7 +41,7 @@ pub(crate) fn undominated<T>(
     near_the_least(all, 1.0, place, ties)
 }
 
-/// The same of those that err less than `within` times as much.
+/// As [`undominated`], but returns those that err less than `within` times the least error so far.
 pub(crate) fn near_the_least<T>(
     mut all: Vec<T>,
     within: f64,
@@ -63,10 +62,24 @@ pub(crate) fn near_the_least<T>(
     all
 }
 
-/// A loss smaller than the reference by more than this counts as zero.
+/// The largest ratio of the reference to a loss that counts, since losses may be zero. Chosen by
+/// hand, unmeasured.
 const MAX_GAIN: f64 = 1e30;
 
-/// Members by rising cost, their losses falling. What is offered may come in any order.
+/// Members by rising cost and falling loss, whatever the order in which they were offered.
+///
+/// ```
+/// use lgp::archive::{Archive, Member};
+/// use lgp::program::{Names, parse};
+///
+/// let program = parse("y = x*x", &Names::new(["x"], ["y"]))?;
+/// let member = |cost, loss| Member { cost, loss, draft: program.clone().into_draft() };
+/// let mut archive = Archive::default();
+/// assert!(archive.offer(member(2.0, 0.1)));
+/// assert!(!archive.offer(member(3.0, 0.4)));
+/// assert_eq!((archive.best_loss(4.0), archive.members().len()), (0.1, 1));
+/// # Ok::<(), lgp::program::ParseError>(())
+/// ```
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Archive {
     members: Vec<Member>,
@@ -78,14 +91,14 @@ impl Archive {
         &self.members
     }
 
-    /// The least loss at no more than this cost; infinite where there is none.
+    /// Returns the least loss at no more than this cost; infinite if no member is that cheap.
     pub fn best_loss(&self, cost: f64) -> f64 {
         let affordable = self.members.partition_point(|member| member.cost <= cost);
         self.members[..affordable].last().map_or(f64::INFINITY, |member| member.loss)
     }
 
-    /// Takes a member in unless one dominates it, and drops those that it dominates. Says whether
-    /// it is in.
+    /// Adds a member and removes those that it dominates, unless one dominates it or its loss is
+    /// not finite. Returns true if it was added.
     pub fn offer(&mut self, member: Member) -> bool {
         if !member.loss.is_finite() || self.members.iter().any(|known| known.dominates(&member)) {
             return false;
@@ -96,15 +109,16 @@ impl Archive {
         true
     }
 
-    /// Takes in all that another archive holds.
+    /// Offers all members of another archive.
     pub fn merge(&mut self, other: &Archive) {
         for member in &other.members {
             self.offer(member.clone());
         }
     }
 
-    /// The area between the front and (`max_cost`, `reference`), a loss, errors on a logarithmic axis: a larger
-    /// one is better. With the best constant's loss for `reference` it does not depend on any unit.
+    /// Returns the area between the front and the corner at `max_cost` and the loss `reference`,
+    /// with losses on a natural logarithmic axis: larger is better. With the best constant's loss
+    /// as `reference` it does not depend on the outputs' unit.
     pub fn hypervolume(&self, max_cost: f64, reference: f64) -> f64 {
         let ends = self.members.iter().skip(1).map(|member| member.cost).chain([max_cost]);
         self.members

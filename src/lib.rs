@@ -12,6 +12,7 @@
 //! |---|---|
 //! | [`deadline`] | when work ends before it is done |
 //! | [`printable`], [`suggest`] | text from elsewhere made harmless; the nearest known name |
+//! | [`file`] | files read up to a limit, and written as a whole |
 //! | [`num`] | registers of lanes, and mathematics with the same bits at every width; low-discrepancy points, sums |
 //! | [`op`] | the one table of operations, and what they mean |
 //! | [`program`] | instructions, verified programs, outer forms, effective code, hashes, formula text |
@@ -31,8 +32,8 @@
 //! | [`report`] | plots, maps, the page of a run, spheres |
 //! | [`cli`] | a file a subcommand |
 //!
-//! The features `report` and `cli`, on by default, are the last two rows and all that only they need: one crate with
-//! features, since every module above them is needed by a search, and a test holds the order.
+//! The features `report` and `cli`, on by default, are the last two rows and all that only they
+//! need. All is one crate, since a search needs every module above them; a test checks the order.
 //!
 //! # Words
 //! | word | meaning |
@@ -76,6 +77,7 @@
 #![deny(missing_docs)]
 
 pub mod deadline;
+pub mod file;
 pub mod printable;
 pub mod suggest;
 

@@ -37,7 +37,7 @@ const MESA: [(&str, &str); 2] = [("gcn", "vega10"), ("rdna2", "navi21")];
 /// The same of formulas that no figure of a profile was chosen by.
 #[test]
 fn profiles_rank_fresh_formulas_as_compilers_do() {
-    let corpus = Corpus::parse(include_str!("../results/gpu/corpus.csv"));
+    let corpus = Corpus::parse(include_str!("reference/gpu_corpus_fresh.csv"));
     assert_eq!(corpus.rows.len(), 200);
     for (gpu, _) in MESA {
         ranks_as_promised(gpu, &corpus);
@@ -56,7 +56,7 @@ fn the_compiler_at_hand_agrees() {
         let _ = std::io::stderr().write_all(format!("\n{line}\n").as_bytes());
         return;
     };
-    let corpus = Corpus::parse(include_str!("../results/gpu/corpus.csv"));
+    let corpus = Corpus::parse(include_str!("reference/gpu_corpus_fresh.csv"));
     let programs = corpus.programs();
     for (gpu, family) in MESA {
         let profile = Profile::find(gpu).unwrap();
@@ -85,7 +85,7 @@ fn the_compiler_at_hand_agrees() {
 fn cycles_on_the_chip_of_the_environment() {
     let compiler = radv::Compiler::new().unwrap();
     let unit = compiler.cycles_of_a_step().unwrap();
-    let corpus = Corpus::parse(include_str!("../results/gpu/corpus.csv"));
+    let corpus = Corpus::parse(include_str!("reference/gpu_corpus_fresh.csv"));
     println!();
     for row in &corpus.rows {
         let program = radv::program(&row.formula).unwrap();

@@ -5,7 +5,7 @@
 
 #![cfg(feature = "cli")]
 
-use lgp::dataset::witness_file_operations;
+use lgp::file::witness_file_operations;
 use lgp::run::{Checkpoint, Holding, load_front, load_run};
 use std::path::Path;
 use std::process::{Command, ExitStatus, Stdio};

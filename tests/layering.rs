@@ -2,8 +2,9 @@
 
 use std::path::{Path, PathBuf};
 
-const LAYERS: [&str; 24] = [
+const LAYERS: [&str; 25] = [
     "deadline",
+    "file",
     "printable",
     "suggest",
     "num",

@@ -239,7 +239,7 @@ const REFUSED: [(&str, &str); 33] = [
         "output `specular`: formula, line 1, column 9: unknown name `f0`",
     ),
     ("outputs: {\"specular\": \"scale + bais\"}", "did you mean `bias`?"),
-    ("outputs: {\"roughness\": \"scale\"}", "`roughness` is called like an input"),
+    ("outputs: {\"roughness\": \"scale\"}", "`roughness` has the name of an input"),
     (
         "outputs: {\"y\": \"log2(bias - 2)\"}",
         "output `y` is NaN on row 1 of the search split of dfg",
@@ -247,8 +247,8 @@ const REFUSED: [(&str, &str); 33] = [
     ("quantisation: (bits: 0)", "quantisation: 0 bits; give 1 to 16"),
     ("quantisation: (bits: 8, tone_map: \"x/2\")", "quantisation: tone_map, over `y`"),
     ("quantisation: (bits: 8, tone_map: \"sqrt(y - 2)\")", "the tone map has no slope at"),
-    ("fixed: {\"roughness\": NaN}", "fixed: NaN of `roughness` is no number"),
-    ("ranges: {\"roughness\": (0, 1e300)}", "ranges: 1e300 of `roughness` is no number"),
+    ("fixed: {\"roughness\": NaN}", "fixed: NaN of `roughness` is no finite 32-bit float"),
+    ("ranges: {\"roughness\": (0, 1e300)}", "ranges: 1e300 of `roughness` is no finite 32-bit float"),
     ("tiers: {\"low\": ()}", "tier `low` needs a max_cost, a max_error or both"),
 ];
 

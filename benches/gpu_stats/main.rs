@@ -2,8 +2,8 @@
 //!
 //! ```sh
 //! cargo run --release --example gpu_stats -- compile "y = exp2(-a*b) + c"
-//! cargo run --release --example gpu_stats -- corpus 200 > results/gpu/corpus.csv
-//! cargo run --release --example gpu_stats -- compare tests/reference/gpu_corpus.csv results/gpu/corpus.csv
+//! cargo run --release --example gpu_stats -- corpus 200 > tests/reference/gpu_corpus_fresh.csv
+//! cargo run --release --example gpu_stats -- compare tests/reference/gpu_corpus.csv tests/reference/gpu_corpus_fresh.csv
 //! ```
 //! Debian: `apt-get install mesa-vulkan-drivers`. Formulas are over the inputs a, b, c.
 

@@ -2,7 +2,7 @@
 //! `benches/peers/search.py` writes.
 
 use super::record::Spread;
-use lgp::dataset::replace_file;
+use lgp::file::replace_file;
 use lgp::report::plot::{Line, LinePlot, Theme, lines_png, lines_svg};
 use serde::Deserialize;
 use std::collections::{BTreeMap, BTreeSet};

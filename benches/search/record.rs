@@ -1,6 +1,6 @@
 //! What runs leave behind: a file for each dataset and budget, to which runs are added.
 
-use lgp::dataset::replace_file;
+use lgp::file::replace_file;
 use lgp::fit::Measure;
 use serde::{Deserialize, Serialize};
 use std::error::Error;

@@ -2,7 +2,7 @@
 
 use super::Case;
 use super::record::{Runs, Spread, TRACED};
-use lgp::dataset::replace_file;
+use lgp::file::replace_file;
 use lgp::fit::Measure;
 use lgp::report::plot::{Line, LinePlot, Theme, lines_png, lines_svg};
 use lgp::wording::error_text;

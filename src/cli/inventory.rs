@@ -1,7 +1,8 @@
 //! The usable files in a project's folders.
 
 use crate::cost::Profile;
-use crate::dataset::{Column, Dataset, LARGEST_TEXT, load_incumbents, read_text};
+use crate::dataset::{Column, Dataset, load_incumbents};
+use crate::file::read_text;
 use crate::grammar::Grammar;
 use serde::Serialize;
 use std::path::{Path, PathBuf};
@@ -76,7 +77,7 @@ fn entries(
 
 /// Returns the first line of a `.ron` file if it is a comment.
 fn first_comment(path: &Path) -> Result<String, String> {
-    let text = read_text(path, LARGEST_TEXT).map_err(|error| error.to_string())?;
+    let text = read_text(path).map_err(|error| error.to_string())?;
     let first = text.lines().next().unwrap_or_default();
     Ok(first.strip_prefix("//").unwrap_or_default().trim().to_owned())
 }

@@ -1,7 +1,8 @@
 //! Output of all commands: results on stdout, everything else on stderr.
 
 use super::{Exit, Failure};
-use crate::dataset::{Dataset, check_replaceable};
+use crate::dataset::Dataset;
+use crate::file::check_replaceable;
 use crate::printable::{printable_json, printable_lines};
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 use serde::{Serialize, Serializer};

@@ -2,7 +2,7 @@
 
 use super::run_folder::{self, Which};
 use super::{Common, Failure, emit, output};
-use crate::dataset::replace_file;
+use crate::file::replace_file;
 use crate::report::plot::Theme;
 use crate::report::spheres::{Environment, Settings};
 use crate::report::{Drawing, ROUGHNESSES, SIZE};

@@ -1,8 +1,8 @@
 //! `lgp report`: the page and the pictures of a run.
 
 use super::{Common, Failure, output};
-use crate::dataset::replace_file;
 use crate::deadline::Deadline;
+use crate::file::replace_file;
 use crate::report::{PAGE, Report, comparison};
 use crate::run::Folder;
 use serde::Serialize;

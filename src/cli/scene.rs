@@ -2,7 +2,8 @@
 
 use super::output::check_writable;
 use super::{Common, Failure};
-use crate::dataset::{Error, Table, replace_file};
+use crate::dataset::{Error, Table};
+use crate::file::replace_file;
 use crate::scene::{Logged, Scene};
 use clap::Subcommand;
 use serde::Serialize;

@@ -1,9 +1,8 @@
 //! Imports tables of comma-separated numbers.
 
 use super::select::unknown_column;
-use super::{
-    Column, Dataset, Error, LARGEST_FILE, Origin, Split, check_identifier, domain_of, read_file,
-};
+use super::{Column, Dataset, Error, LARGEST_FILE, Origin, Split, check_identifier, domain_of};
+use crate::file::read_file;
 use std::collections::HashSet;
 use std::path::Path;
 

@@ -2,7 +2,8 @@
 //! the columns as little-endian f32 (search columns, weights, dead zones and standard errors, then
 //! the validation split's), and the 32-byte blake3 checksum of everything before it.
 
-use super::{Column, Dataset, Error, LARGEST_FILE, Origin, Split, read_file, replace_file};
+use super::{Column, Dataset, Error, LARGEST_FILE, Origin, Split};
+use crate::file::{read_file, replace_file};
 use ron::extensions::Extensions;
 use serde::{Deserialize, Serialize};
 use std::path::Path;

@@ -1,6 +1,7 @@
 //! Incumbents: published formulas for a dataset, scored on the same axes as a front's members.
 
-use super::{Dataset, Error, LARGEST_TEXT, check_text, read_text};
+use super::{Dataset, Error, check_text};
+use crate::file::read_text;
 use crate::program::{Names, Program, parse, parse_open};
 use serde::Deserialize;
 use std::path::{Path, PathBuf};
@@ -58,7 +59,7 @@ impl Incumbent {
 /// A file that cannot be read or is not a list of incumbents, two incumbents of one name, or a text
 /// that is not a formula.
 pub fn load_incumbents(path: &Path) -> Result<Vec<Incumbent>, Error> {
-    let text = read_text(path, LARGEST_TEXT).map_err(|source| Error::unread(path, source))?;
+    let text = read_text(path).map_err(|source| Error::unread(path, source))?;
     let refused = |line, problem| Error::Incumbents { path: path.into(), line, problem };
     let incumbents: Vec<Incumbent> = ron::from_str(&text)
         .map_err(|error| refused(error.span.start.line, error.code.to_string()))?;

@@ -17,10 +17,8 @@
 mod claims;
 mod csv;
 mod error;
-mod file;
 mod format;
 mod incumbent;
-mod kind;
 mod name;
 mod origin;
 mod prune;
@@ -32,9 +30,7 @@ pub use claims::check_claims;
 pub(crate) use claims::claims_over;
 pub use csv::{InputColumns, Table, import_csv};
 pub use error::Error;
-pub use file::{StagedFile, TEMPORARY, remove_file, replace_file, witness_file_operations};
 pub use incumbent::{Incumbent, ParsedIncumbent, incumbents_file, incumbents_for, load_incumbents};
-pub use kind::{check_replaceable, read_file, read_text};
 pub use name::{LONGEST_NAME, NameFault, check_name, check_text};
 pub use origin::Origin;
 pub(crate) use sampled::combinations;
@@ -232,8 +228,6 @@ impl Dataset {
 pub const MAX_COLUMNS: usize = 4096;
 /// The most bytes of a file of a dataset or table. By hand: it is read into memory.
 pub const LARGEST_FILE: u64 = 1 << 30;
-/// The most bytes of a file of settings, recipes or formulas. By hand.
-pub const LARGEST_TEXT: u64 = 1 << 24;
 /// The most rows of a split: those of one column in the largest file.
 pub const MAX_ROWS: usize = 1 << 28;
 

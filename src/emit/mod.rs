@@ -7,10 +7,10 @@
 //! constant expression is a compile error in WGSL. Signs are moved to where the fewest stand
 //! (`x - 0.5` for `x + -0.5`), which is exact.
 //!
-//! Where an argument is NaN, languages differ in what `min`, `max` and a clamp make of it, and where it
-//! is negative in what `pow` does. `pow(0, 0)` is NaN in a program, as it is in most shaders, where `pow(x, y)`
-//! is `exp2(y*log2(x))`: GLSL leaves it undefined (as it does `pow(x, y)` for x < 0), HLSL and WGSL
-//! promise no more than that expression gives; in MSL, C, Rust and Python it is 1, as IEEE 754 has it.
+//! Languages differ in the results of `min`, `max` and a clamp for NaN, and of `pow` for a negative
+//! base. `pow(0, 0)` is NaN in a program, as in most shaders, where `pow(x, y)` is
+//! `exp2(y*log2(x))`: GLSL leaves it undefined (like `pow(x, y)` for x < 0), HLSL and WGSL promise
+//! no more than that expression gives; in MSL, C, Rust and Python it is 1, as in IEEE 754.
 //!
 //! ```
 //! use lgp::emit::{Language, Snippet, emit};

@@ -1,23 +1,23 @@
-//! Programs in arithmetics other than `f32`, sample by sample.
+//! Evaluation in arithmetics other than `f32`, sample by sample.
 
 use crate::op::{MAX_ARITY, Op};
 use crate::program::{Arg, Program};
 
-/// What the operations do with values of some kind.
+/// The meaning of the operations on values of one type.
 pub trait Arithmetic {
     /// A number of this arithmetic.
     type Value: Copy;
 
-    /// A constant of a program.
+    /// Converts a constant of a program.
     fn constant(&self, value: f32) -> Self::Value;
 
-    /// Arguments beyond the arity are not looked at.
+    /// Applies an operation, ignoring arguments beyond its arity.
     fn apply(&self, op: Op, arguments: [Self::Value; MAX_ARITY]) -> Self::Value;
 
-    /// The program's outputs where its inputs are `inputs`.
+    /// Evaluates the program's outputs at one sample.
     ///
     /// # Panics
-    /// If `inputs` has not one value for each input column.
+    /// If `inputs` does not hold one value per input column.
     fn evaluate(&self, program: &Program, inputs: &[Self::Value]) -> Vec<Self::Value> {
         assert_eq!(inputs.len(), program.inputs, "one value for each input");
         let mut results = Vec::with_capacity(program.instrs.len());

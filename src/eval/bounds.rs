@@ -1,6 +1,6 @@
-//! Programs on boxes: bounds of every value that `f32` and `f64` evaluation can give there.
+//! Evaluation on boxes of inputs: bounds of all values that `f32` and `f64` evaluation can give.
 
-// A new operation must not get bounds that nobody looked at.
+// A new operation must not get bounds by default.
 #![deny(clippy::wildcard_enum_match_arm)]
 
 use super::Arithmetic;
@@ -8,8 +8,8 @@ use crate::num::{Interval, enclose};
 use crate::op::{MAX_ARITY, Op};
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
-/// Interval arithmetic, operation by operation: sound, and no tighter than that (what an
-/// argument has to do with itself is not known).
+/// Interval arithmetic, operation by operation: sound, but not tight, since it does not know that
+/// two arguments depend on each other.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Bounds;
 
@@ -26,7 +26,7 @@ impl Arithmetic for Bounds {
             return Interval::NAN;
         }
         let [a, b, c, d] = arguments;
-        // What the interpreter is off by, over the rounding that all bounds allow for.
+        // The interpreter's own error, beyond the rounding that all bounds allow for.
         let steps = op.accuracy().steps();
         match op {
             Op::Add => a.plus(b),
@@ -65,7 +65,7 @@ impl Arithmetic for Bounds {
     }
 }
 
-/// `f` of what a domain leaves of `a`, if anything.
+/// Applies `f` to the part of an argument that is in its domain, if there is any.
 fn within(a: Interval, f: impl Fn(Interval) -> Interval) -> Interval {
     if a.is_empty() { a } else { f(a) }
 }
@@ -103,11 +103,11 @@ fn log2(a: Interval) -> Interval {
     positive(a, |a| a.map_increasing(f64::log2, Op::Log2.accuracy().steps()))
 }
 
-/// A sine that has a maximum at `crest`.
+/// Bounds `f`, a sine shifted to have a maximum at `crest`.
 fn wave(op: Op, a: Interval, f: impl Fn(f64) -> f64, crest: f64) -> Interval {
     let nan = a.may_be_nan() || a.may_be_infinite();
     if a.abs().high() > op.accuracy().up_to() {
-        // Far out an argument's quadrant is off by one at most, and then zero.
+        // For large arguments the quadrant is off by one at most, and then zero.
         return Interval::new(-1.01, 1.01).or_nan_if(nan);
     }
     let (low, high) = (f64::from(a.low()), f64::from(a.high()));
@@ -127,7 +127,7 @@ fn tangent(a: Interval) -> Interval {
     a.map_increasing(f64::tan, accuracy.steps())
 }
 
-/// The angle of a box: that of a corner is extreme, unless the cut lies within.
+/// Bounds the angle over a box: the extremes are at corners, unless the branch cut crosses the box.
 fn angle(y: Interval, x: Interval) -> Interval {
     let nan = y.may_be_nan() || x.may_be_nan();
     if y.contains(0.0) && x.low() <= 0.0 {

@@ -1,9 +1,9 @@
-//! Programs in double precision: what a formula means, but for the rounding of `f32`.
+//! Evaluation in double precision: the formula's meaning without the rounding of `f32`.
 
 use super::Arithmetic;
 use crate::op::{MAX_ARITY, Op};
 
-/// IEEE-754 double precision, elementary functions as the platform's.
+/// IEEE-754 double precision, with the platform's elementary functions.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Double;
 
@@ -64,7 +64,7 @@ impl Arithmetic for Double {
     }
 }
 
-/// NaN if either is, and −0 < +0.
+/// Returns the smaller; NaN if either is NaN, and −0 < +0.
 fn minimum(a: f64, b: f64) -> f64 {
     match a.partial_cmp(&b) {
         None => f64::NAN,

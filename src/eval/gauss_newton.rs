@@ -1,4 +1,4 @@
-//! The normal equations of a least-squares fit, accumulated as the chunks pass.
+//! The normal equations of a least-squares fit, accumulated chunk by chunk.
 
 use super::isa::by_isa;
 use super::kernels::{CHUNK_BLOCKS, Chunk, Source};
@@ -6,27 +6,27 @@ use super::loss::{beyond, sum};
 use super::{Evaluator, Samples, Tape, run};
 use crate::num::Lanes;
 
-/// Which of a tape's outputs are derivatives: the first `outputs` are values, and each further
-/// one is the derivative of a value by a parameter. What is not listed is zero.
+/// The layout of a tape's outputs: the first `outputs` are values, each further one the derivative
+/// of a value by a parameter. Derivatives that are not listed are zero.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Jacobian {
-    /// How many of the tape's outputs are values.
+    /// The number of the tape's outputs that are values.
     pub outputs: usize,
-    /// The number of constants.
+    /// The number of parameters: the program's constants.
     pub parameters: usize,
-    /// For each value, its parameters and the tape's output that is the derivative by it. Empty lists
-    /// may follow, kept for their allocations.
+    /// For each value, pairs of a parameter and the tape's output that is the derivative by it.
+    /// Empty lists may follow, kept for their allocations.
     pub entries: Vec<Vec<(u16, u16)>>,
 }
 
 /// `JᵀWJ`, `JᵀWr` and `rᵀWr` with `r = f − y`, over all values.
 #[derive(Clone, Debug, Default)]
 pub struct NormalEquations {
-    /// Row-major, lower triangle filled.
+    /// `JᵀWJ`: row-major, only the lower triangle filled.
     pub matrix: Vec<f64>,
-    /// `Jᵀr`, an entry for each constant.
+    /// `JᵀWr`: one entry per parameter.
     pub gradient: Vec<f64>,
-    /// `rᵀr`: weighted, over all outputs.
+    /// `rᵀWr`: over all outputs.
     pub sum_of_squares: f64,
 }
 
@@ -41,11 +41,11 @@ impl NormalEquations {
 }
 
 impl Evaluator {
-    /// Accumulates the normal equations of the tape's values against the samples' targets. Sums are
+    /// Computes the normal equations of the tape's values against the samples' targets. Sums are
     /// `f32` within a lane of a chunk, `f64` beyond.
     ///
     /// # Panics
-    /// If the samples have another number of inputs or outputs than the tape has inputs or values.
+    /// If the samples' inputs or outputs differ in number from the tape's inputs or values.
     pub fn normal_equations(
         &mut self,
         tape: &Tape,
@@ -65,7 +65,7 @@ impl Evaluator {
 }
 
 by_isa! {
-    /// Adds the products of a chunk whose tape was run.
+    /// Adds the products of a chunk whose tape has run.
     fn accumulate(chunk: &Chunk, jacobian: &Jacobian, equations: &mut NormalEquations) -> () = accumulate_in
 }
 
@@ -109,9 +109,9 @@ unsafe fn accumulate_in<L: Lanes>(
     }
 }
 
-/// `f − y` of one value in a chunk, or what of it exceeds the dead zone. (The equations' matrix counts all
-/// samples all the same: it is that of the least squares to the nearest values without an error,
-/// whose solution is never worse.)
+/// `f − y` of one value in a chunk, or the part beyond the dead zone. (The equations' matrix still
+/// counts every sample: it belongs to the least squares towards the nearest values without an
+/// error, whose solution is never worse.)
 struct Residual {
     values: Source,
     targets: Source,
@@ -168,7 +168,7 @@ impl Residual {
     }
 }
 
-/// `Σ w d e` for one derivative and four others.
+/// Returns `Σ w d e` for one derivative `d` and four others `e`.
 ///
 /// # Safety
 /// As [`accumulate_in`]; the sources hold `blocks` blocks.
@@ -188,7 +188,7 @@ unsafe fn products<L: Lanes>(
                 *total = weighted.fma(right.block::<L>(i), *total);
             }
         }
-        // Not `map`: its closure would be compiled without the register's instructions.
+        // Not `map`, whose closure would be compiled without the register's instructions.
         [sum(totals[0]), sum(totals[1]), sum(totals[2]), sum(totals[3])]
     }
 }

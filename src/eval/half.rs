@@ -1,14 +1,14 @@
-//! Programs in half precision, as a shader on `half` computes them.
+//! Evaluation in half precision, as in a shader on `half`.
 
 use super::Arithmetic;
 use crate::op::{MAX_ARITY, Op};
 use half::f16;
 
-/// IEEE-754 half precision, rounded after every operation; elementary functions are those of
-/// `f32`, rounded.
+/// IEEE-754 half precision, rounded after every operation; elementary functions are rounded from
+/// those of `f32`.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Half {
-    /// Denormal constants, arguments and results become zeros of their sign.
+    /// True if denormal constants, arguments and results become zeros of their sign.
     pub flush_to_zero: bool,
 }
 
@@ -32,8 +32,8 @@ impl Arithmetic for Half {
     fn apply(&self, op: Op, arguments: [f16; MAX_ARITY]) -> f16 {
         let arguments = arguments.map(|argument| f32::from(self.flushed(argument)));
         let [a, b, c, _] = arguments;
-        // Rounding to `f32` and then to `f16` is rounding once for + − × ÷ √, whose arguments have
-        // less than half the digits. Where three arguments meet it takes `f64`.
+        // For + − × ÷ √, rounding to `f32` and then to `f16` equals rounding once, since `f16` has
+        // less than half the digits. Three arguments need `f64`.
         let mad = |a: f32, b: f32, c: f32| f64::from(a) * f64::from(b) + f64::from(c);
         self.flushed(match op {
             Op::Mad => f16::from_f64(mad(a, b, c)),

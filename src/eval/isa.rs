@@ -1,8 +1,8 @@
-//! Which registers the kernels run in.
+//! The instruction sets that kernels are compiled for.
 
 use std::fmt;
 
-/// An instruction set that this processor has: proof of it, since there is no other way to get one.
+/// An instruction set of this processor. Only those that it has can be made, so a value is proof.
 #[derive(Clone, Copy, PartialEq, Eq)]
 pub struct Isa(pub(super) Level);
 
@@ -16,10 +16,10 @@ pub(super) enum Level {
 }
 
 impl Isa {
-    /// Plain code, compiled for the oldest processor of its kind.
+    /// Plain code, compiled for the oldest processor of the architecture.
     pub const PORTABLE: Isa = Isa(Level::Portable);
 
-    /// All that this processor has, the widest last.
+    /// Returns all instruction sets of this processor, the widest last.
     pub fn available() -> Vec<Isa> {
         let mut available = vec![Isa::PORTABLE];
         #[cfg(target_arch = "x86_64")]
@@ -37,7 +37,7 @@ impl Isa {
         available
     }
 
-    /// The widest that this processor has.
+    /// Returns the widest instruction set of this processor.
     pub fn best() -> Isa {
         static BEST: std::sync::OnceLock<Isa> = std::sync::OnceLock::new();
         *BEST.get_or_init(|| Isa::available().pop().unwrap_or(Isa::PORTABLE))
@@ -62,8 +62,8 @@ impl fmt::Debug for Isa {
     }
 }
 
-/// Defines `fn $name(isa: Isa, …)` that runs `$generic::<L>(…)` compiled for each instruction
-/// set, with `L` its register of [`super::BLOCK`] lanes.
+/// Defines `fn $name(isa: Isa, …)`, which runs `$generic::<L>(…)` compiled for that instruction
+/// set, `L` being its register of [`super::BLOCK`] lanes.
 macro_rules! by_isa {
     ($(#[$doc:meta])* fn $name:ident($($arg:ident: $type:ty),* $(,)?) -> $result:ty = $generic:ident) => {
         $(#[$doc])*

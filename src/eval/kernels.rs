@@ -1,5 +1,5 @@
-//! The interpreter's inner loops: one operation over a chunk of samples at a time
-//! (Pesce & Iwanicki 2015, §5.2), generic over the register.
+//! The interpreter's inner loops: one operation over a chunk of samples at a time (Pesce &
+//! Iwanicki 2015, §5.2), generic over the register.
 
 use super::samples::{Block, Samples};
 use super::tape::{Area, Operand, Step, Tape};
@@ -8,14 +8,14 @@ use crate::num::{Lanes, math};
 use crate::op::{Op, operations};
 use std::marker::PhantomData;
 
-/// Blocks in a chunk.
+/// The number of blocks in a chunk.
 pub(super) const CHUNK_BLOCKS: usize = CHUNK / BLOCK;
 
-/// Where a value of a chunk is read: consecutive blocks, or one block again and again.
+/// The place of a value in a chunk: consecutive blocks, or one block read again and again.
 #[derive(Clone, Copy)]
 pub(super) struct Source {
     at: *const f32,
-    /// Values from a block to the next: [`BLOCK`], or 0 for a constant.
+    /// The stride between blocks, in values: [`BLOCK`], or 0 for a constant.
     step: usize,
 }
 
@@ -31,23 +31,23 @@ impl Source {
     }
 }
 
-/// Where the memory of one [`Area`] lies in this chunk.
+/// The memory of one [`Area`] in a chunk.
 #[derive(Clone, Copy)]
 struct Layout {
     first: *mut Block,
-    /// Blocks from one column, constant or slot to the next.
+    /// The stride between columns, constants or slots, in blocks.
     stride: usize,
     /// As in [`Source`].
     step: usize,
 }
 
-/// The values of one chunk of samples: columns and constants where they are, results in slots.
+/// The values of one chunk of samples: columns and constants in place, results in slots.
 pub(super) struct Chunk<'a> {
     pub(super) tape: &'a Tape,
     pub(super) samples: &'a Samples,
-    /// By [`Area`].
+    /// The areas' memory, indexed by [`Area`].
     places: [Layout; 4],
-    /// The slots and outputs are this chunk's alone; kernels may read and write the same one.
+    /// The slots and outputs belong to this chunk alone; a kernel may read and write the same one.
     _slots: PhantomData<&'a mut [Block]>,
     first_block: usize,
     /// At most [`CHUNK_BLOCKS`].
@@ -55,7 +55,7 @@ pub(super) struct Chunk<'a> {
 }
 
 impl<'a> Chunk<'a> {
-    /// A chunk whose outputs lie behind its slots.
+    /// Makes a chunk whose outputs follow its slots.
     ///
     /// # Panics
     /// If the samples lack a column that the tape reads, or `slots` is too short for the tape.
@@ -71,7 +71,7 @@ impl<'a> Chunk<'a> {
         Chunk::with_outputs(tape, samples, slots, outputs, first_block)
     }
 
-    /// A chunk whose outputs go to their rows of whole columns.
+    /// Makes a chunk whose outputs are written to their rows of whole columns.
     ///
     /// # Panics
     /// As [`Chunk::new`], or if `columns` is too short.
@@ -108,14 +108,14 @@ impl<'a> Chunk<'a> {
         Chunk { tape, samples, places, _slots: PhantomData, first_block, blocks }
     }
 
-    /// Where an operand of the tape is read in this chunk.
+    /// Returns the place of a tape's operand in this chunk.
     #[inline(always)]
     pub(super) fn source(&self, operand: Operand) -> Source {
         let place = self.places[operand.area as usize];
         Source { at: self.address(operand), step: place.step }
     }
 
-    /// Where a whole column is read in this chunk.
+    /// Returns the place of this chunk's rows in a whole column.
     #[inline(always)]
     pub(super) fn rows_of(&self, column: &[Block]) -> Source {
         Source { at: column[self.first_block..].as_ptr().cast(), step: BLOCK }
@@ -124,12 +124,12 @@ impl<'a> Chunk<'a> {
     #[inline(always)]
     fn address(&self, operand: Operand) -> *mut f32 {
         let place = self.places[operand.area as usize];
-        // SAFETY: a tape's operands are its own, and `with_outputs` and its callers checked that
-        // each area has all that the tape counts.
+        // SAFETY: the operand is the tape's own, and `with_outputs` and its callers checked that
+        // each area is as large as the tape needs.
         unsafe { place.first.add(usize::from(operand.index) * place.stride).cast() }
     }
 
-    /// Carries out every step of the tape on this chunk.
+    /// Runs every step of the tape on this chunk.
     ///
     /// # Safety
     /// The processor has `L`, whose width is [`BLOCK`].
@@ -141,7 +141,7 @@ impl<'a> Chunk<'a> {
         }
     }
 
-    /// Fills the outputs that no step writes: columns, constants, and a result's second place.
+    /// Copies the outputs that no step writes: columns, constants, and a result's second place.
     ///
     /// # Safety
     /// As [`Chunk::run`].

@@ -1,42 +1,42 @@
-//! Errors of a program on samples, taken as the chunks pass.
+//! Errors of a program on samples, summed chunk by chunk.
 
 use super::isa::by_isa;
 use super::kernels::{CHUNK_BLOCKS, Chunk};
 use super::{BLOCK, Evaluator, Samples, Tape, run};
 use crate::num::Lanes;
 
-/// Errors against the samples' targets, for each output.
+/// Errors against the samples' targets, by output.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct ErrorSums {
-    /// `Σ w (f − y)²`, of each error what exceeds the dead zone: in `f32` within a lane of a chunk, in `f64` beyond. Not finite if any
-    /// of the program's outputs is not.
+    /// `Σ w (f − y)²`, of each error only the part beyond the dead zone; summed in `f32` within a
+    /// lane of a chunk, in `f64` beyond. Not finite if any value of the output is not.
     pub sum_of_squares: Vec<f64>,
-    /// `max |f − y|`, unweighted; NaN if any of the program's outputs is.
+    /// `max |f − y|`, unweighted; NaN if any value of the output is.
     pub max_error: Vec<f32>,
-    /// Whether the sums stop early because they exceeded the bound.
+    /// True if samples are missing, since the total exceeded the bound or became NaN before them.
     pub abandoned: bool,
 }
 
 impl ErrorSums {
-    /// The sum of squares over all outputs.
+    /// Returns the sum of squares over all outputs.
     pub fn total(&self) -> f64 {
         self.sum_of_squares.iter().sum()
     }
 }
 
 impl Evaluator {
-    /// The errors of a program's outputs, in order, against the samples' targets. Stops after the
-    /// chunk in which the total exceeds `bound` or ceases to be a number.
+    /// Returns the errors of a program's outputs against the samples' targets, in order. Stops
+    /// after the chunk in which the total exceeds `bound` or becomes NaN.
     ///
     /// # Panics
-    /// If the samples have another number of inputs or outputs than the program.
+    /// If the samples and the program differ in the number of inputs or outputs.
     pub fn loss(&mut self, tape: &Tape, samples: &Samples, bound: f64) -> ErrorSums {
         let mut loss = ErrorSums::default();
         self.loss_into(tape, samples, bound, &mut loss);
         loss
     }
 
-    /// [`Evaluator::loss`] without an allocation.
+    /// As [`Evaluator::loss`], but without an allocation.
     pub fn loss_into(&mut self, tape: &Tape, samples: &Samples, bound: f64, loss: &mut ErrorSums) {
         assert_eq!(tape.outputs.len(), samples.outputs(), "a target for each output");
         self.reserve(tape);
@@ -59,7 +59,7 @@ impl Evaluator {
 }
 
 by_isa! {
-    /// Adds the errors of a chunk whose tape was run.
+    /// Adds the errors of a chunk whose tape has run.
     fn accumulate(chunk: &Chunk, loss: &mut ErrorSums) -> () = accumulate_in
 }
 
@@ -92,7 +92,7 @@ unsafe fn accumulate_in<L: Lanes>(chunk: &Chunk, loss: &mut ErrorSums) {
     }
 }
 
-/// What of an error exceeds the dead zone.
+/// Returns the part of an error beyond the dead zone.
 ///
 /// # Safety
 /// The processor has `L`.
@@ -102,7 +102,7 @@ pub(super) unsafe fn beyond<L: Lanes>(error: L, dead_zone: L) -> L {
     unsafe { error - error.minimum(dead_zone).maximum(L::broadcast(0.0) - dead_zone) }
 }
 
-/// The lanes as an array.
+/// Returns the lanes as an array.
 ///
 /// # Safety
 /// `L`'s width is [`BLOCK`].
@@ -114,8 +114,8 @@ unsafe fn lanes<L: Lanes>(register: L) -> [f32; BLOCK] {
     lanes
 }
 
-/// The sum of the lanes in `f64`, halves first: with no lane waiting for the last, whatever the
-/// register.
+/// Returns the sum of the lanes in `f64`, by a tree of halves, the same for every register: its
+/// additions wait less for each other than a chain's.
 ///
 /// # Safety
 /// `L`'s width is [`BLOCK`].
@@ -136,7 +136,7 @@ pub(super) unsafe fn sum<L: Lanes>(register: L) -> f64 {
     (quarters[0] + quarters[2]) + (quarters[1] + quarters[3])
 }
 
-/// The largest lane; NaN if any is.
+/// Returns the largest lane; NaN if any lane is NaN.
 ///
 /// # Safety
 /// `L`'s width is [`BLOCK`].

@@ -1,18 +1,19 @@
-//! Programs over many samples.
+//! Evaluation of programs on many samples.
 //!
 //! A [`Tape`] is a program prepared for the kernels, [`Samples`] a table laid out for them.
-//! An [`Evaluator`] owns the scratch memory and runs one on the other, chunk by chunk, in the
-//! widest registers that the processor has: the same bits at every width, and the same bits as
-//! [`Program::evaluate`](crate::program::Program::evaluate). Nothing is "protected": what is
-//! not finite is reported as such.
+//! An [`Evaluator`] owns the scratch memory and runs tapes on samples, chunk by chunk, in the
+//! widest registers that the processor has. The bits are the same at every width, and those of
+//! [`Program::evaluate`](crate::program::Program::evaluate). No operation is "protected": values
+//! that are not finite are reported as such.
 //!
-//! The same programs in other arithmetics, sample by sample, are an [`Arithmetic`] each: [`Double`],
-//! [`Half`], and [`Bounds`] on boxes.
+//! An [`Arithmetic`] evaluates programs sample by sample in other numbers: [`Double`], [`Half`],
+//! and [`Bounds`], intervals on boxes of inputs.
 //!
 //! ```
 //! use lgp::dataset::Split;
 //! use lgp::eval::{Evaluator, Samples, Tape};
 //! use lgp::program::{Names, parse};
+//!
 //! let names = Names::new(["x"], ["y"]);
 //! let tape = Tape::new(&parse("y = 2*x", &names)?);
 //! let split = Split { columns: vec![vec![1.0, 2.0], vec![2.0, 5.0]], ..Split::default() };
@@ -52,15 +53,15 @@ use isa::by_isa;
 use kernels::{CHUNK_BLOCKS, Chunk};
 use samples::Block;
 
-/// Lanes that kernels handle at once, whatever the register: reductions run over as many partial
-/// sums, so that they too have the same bits at every width.
+/// The number of lanes that kernels handle at once, whatever the register. Reductions keep as many
+/// partial sums, so that they, too, have the same bits at every width.
 pub const BLOCK: usize = 16;
 
-/// Samples of a chunk: a program's slots and columns of this length fit the first-level cache, and
-/// what a step costs once is little beside them (`results/eval` has the measurement).
+/// The number of samples in a chunk: a program's slots and columns of this length fit the
+/// first-level cache, and the overhead of a step is small beside them (measured in `results/eval`).
 pub const CHUNK: usize = 1024;
 
-/// Runs tapes; owns the memory that they need.
+/// An interpreter of tapes, with the scratch memory that they need.
 #[derive(Clone, Debug)]
 pub struct Evaluator {
     isa: Isa,
@@ -74,22 +75,22 @@ impl Default for Evaluator {
 }
 
 impl Evaluator {
-    /// Returns an evaluator that uses these instructions.
+    /// Makes an evaluator that uses an instruction set.
     pub fn new(isa: Isa) -> Evaluator {
         Evaluator { isa, slots: Vec::new() }
     }
 
-    /// Every output's values, one vector each of `samples.rows()` values.
+    /// Returns the values of each output, a vector of `samples.rows()` per output.
     ///
     /// # Panics
-    /// If the samples have another number of inputs than the program.
+    /// If the samples and the program differ in the number of inputs.
     pub fn outputs(&mut self, tape: &Tape, samples: &Samples) -> Vec<Vec<f32>> {
         let mut values = Values::default();
         self.outputs_into(tape, samples, &mut values);
         (0..tape.outputs.len()).map(|o| values.column(o).to_vec()).collect()
     }
 
-    /// [`Evaluator::outputs`] without an allocation once `values` is large enough.
+    /// As [`Evaluator::outputs`], but without an allocation once `values` is large enough.
     pub fn outputs_into(&mut self, tape: &Tape, samples: &Samples, values: &mut Values) {
         self.reserve(tape);
         values.lay_out(samples, tape.outputs.len());
@@ -110,7 +111,7 @@ impl Evaluator {
 }
 
 by_isa! {
-    /// Carries out every step of a chunk's tape.
+    /// Runs every step of a chunk's tape.
     fn run(chunk: &Chunk) -> () = run_in
 }
 
@@ -123,7 +124,7 @@ unsafe fn run_in<L: Lanes>(chunk: &Chunk) {
 }
 
 by_isa! {
-    /// Copies the outputs that no step writes where they belong: columns, constants, and results
+    /// Copies the outputs that no step writes to their places: columns, constants, and results
     /// that are an output twice.
     fn copy_outputs(chunk: &Chunk) -> () = copy_outputs_in
 }

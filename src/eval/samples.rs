@@ -3,35 +3,38 @@
 use super::BLOCK;
 use crate::dataset::Split;
 
-/// One register's worth of values, aligned to it.
+/// The values of [`BLOCK`] lanes, aligned for the widest register.
 #[derive(Clone, Copy, Debug, bytemuck::Zeroable, bytemuck::Pod)]
 #[repr(C, align(64))]
 pub(super) struct Block(pub [f32; BLOCK]);
 
-/// The rows of a split, column by column, each column padded to whole blocks by its last
-/// value, with weight 0. The default has no rows.
+/// Rows of a split, column-major, each column padded to whole blocks with its last value, at
+/// weight 0. The default has no rows.
 #[derive(Clone, Debug, Default)]
 pub struct Samples {
     rows: usize,
     blocks: usize,
     inputs: usize,
     outputs: usize,
-    /// Inputs, outputs, each output's weights, and where there are dead zones, each output's;
-    /// `blocks` each.
+    /// Columns of `blocks`: inputs, outputs, the weights of each output, and, if any was set, the
+    /// dead zones of each output.
     values: Vec<Block>,
-    /// Of each output's values; none where they are exact.
+    /// By output; empty if values are exact.
     standard_errors: Vec<Vec<f32>>,
     total_weight: f64,
 }
 
 impl Samples {
-    /// All rows of a split whose first `inputs` columns are the inputs.
+    /// Lays out all rows of a split whose first `inputs` columns are the inputs.
+    ///
+    /// # Panics
+    /// As [`Samples::of_rows`].
     pub fn new(split: &Split, inputs: usize) -> Samples {
         let rows: Vec<u32> = (0..split.rows() as u32).collect();
         Samples::of_rows(split, inputs, &rows)
     }
 
-    /// The given rows of a split.
+    /// Lays out the given rows of a split, without its dead zones ([`Samples::set_dead_zone`]).
     ///
     /// # Panics
     /// If `rows` is empty or names a row that the split lacks.
@@ -61,7 +64,7 @@ impl Samples {
         }
     }
 
-    /// The number of samples.
+    /// Returns the number of samples.
     pub fn rows(&self) -> usize {
         self.rows
     }
@@ -76,8 +79,8 @@ impl Samples {
         self.outputs
     }
 
-    /// What a sum of squares over samples and outputs is divided by to become a mean: the sum of all weights,
-    /// unless [`Samples::set_total_weight`] said otherwise.
+    /// Returns the divisor that makes a mean of a sum of squares over samples and outputs: the sum
+    /// of all weights, unless [`Samples::set_total_weight`] set another.
     pub fn total_weight(&self) -> f64 {
         self.total_weight
     }
@@ -86,17 +89,17 @@ impl Samples {
         self.blocks
     }
 
-    /// All columns, one after the other: inputs, outputs, weights.
+    /// Returns all columns, one after the other, as in `values`.
     pub(super) fn columns(&self) -> &[Block] {
         &self.values
     }
 
-    /// A whole column: an input, then an output, then the weights.
+    /// Returns a whole column by its place in `values`.
     pub(super) fn column(&self, index: usize) -> &[Block] {
         &self.values[index * self.blocks..(index + 1) * self.blocks]
     }
 
-    /// Gives the samples weights for one output, in place of those that they have.
+    /// Replaces the samples' weights for one output.
     ///
     /// # Panics
     /// If there are fewer weights than samples, or no such output.
@@ -113,13 +116,14 @@ impl Samples {
         self.total_weight += change;
     }
 
-    /// Says what makes a mean of a sum of squares, where it is not the sum of the weights: weights that turn
-    /// errors into relative ones, or that hold a formula to some samples, are none of importance.
+    /// Sets the divisor that makes a mean of a sum of squares, for weights that do not state
+    /// importance: they make errors relative, or hold a formula to some samples.
     pub fn set_total_weight(&mut self, total: f64) {
         self.total_weight = total;
     }
 
-    /// Gives an output a dead zone at each sample: of an error only what exceeds it counts in sums of squares.
+    /// Sets the dead zone of an output at each sample: only the part of an error beyond it counts
+    /// in sums of squares.
     ///
     /// # Panics
     /// If there are fewer errors than samples, or no such output.
@@ -132,7 +136,7 @@ impl Samples {
         lanes[..self.rows].copy_from_slice(&errors[..self.rows]);
     }
 
-    /// What an output should be, sample by sample.
+    /// Returns the values that an output should have, by sample.
     ///
     /// # Panics
     /// If there is no such output.
@@ -140,7 +144,7 @@ impl Samples {
         &bytemuck::cast_slice(self.target(output))[..self.rows]
     }
 
-    /// What the samples weigh for an output.
+    /// Returns the samples' weights for an output.
     ///
     /// # Panics
     /// If there is no such output.
@@ -148,7 +152,7 @@ impl Samples {
         &bytemuck::cast_slice(self.weight(output))[..self.rows]
     }
 
-    /// The standard errors of an output's values, sample by sample; none where they are exact.
+    /// Returns the standard errors of an output's values, by sample; none if values are exact.
     pub fn standard_errors(&self, output: usize) -> Option<&[f32]> {
         self.standard_errors.get(output).map(Vec::as_slice)
     }
@@ -157,7 +161,7 @@ impl Samples {
         self.column(self.inputs + self.outputs + output)
     }
 
-    /// The dead zone of an output, if it has one.
+    /// Returns the dead zone of an output, if any was set.
     pub(super) fn dead_zone(&self, output: usize) -> Option<&[Block]> {
         let first = (self.inputs + 2 * self.outputs + output) * self.blocks;
         self.values.get(first..first + self.blocks)

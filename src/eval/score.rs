@@ -1,40 +1,52 @@
-//! The errors that are quoted.
+//! The errors that are reported of a program.
 
 use super::{Evaluator, Samples, Tape};
 use crate::dataset::{Dataset, Split, joint_unit, output_units};
 use crate::program::Program;
 use serde::{Deserialize, Serialize};
 
-/// Errors of one output, in its own unit.
+/// The errors of one output, in its own unit.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct OutputError {
-    /// Root mean square over the samples, whatever weights they were given.
+    /// The root mean square over the samples, without the user's weights.
     pub rmse: f64,
     /// The largest absolute error, unweighted.
     pub max: f64,
-    /// Root mean square of the errors relative to the value; values below a thousandth of the output's
-    /// largest on the search split count as that.
+    /// The root mean square of the errors relative to the value; a value below a thousandth of the
+    /// output's largest on the search split counts as that thousandth.
     pub relative: f64,
-    /// Root mean square, the samples weighted as the dataset says; none where it says nothing.
+    /// The root mean square with the user's weights; none if there are no such weights.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub weighted: Option<f64>,
-    /// As weighted, of what exceeds the errors that nobody sees; none where all errors count.
+    /// As `weighted`, of the parts of errors beyond the dead zone; none if there is no dead zone.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub visible: Option<f64>,
 }
 
-/// A program's errors on a dataset, by output. What is not finite is infinite.
+/// A program's errors on a dataset, by output; infinite if any value is not finite.
 ///
-/// On a validation split denser than the search split, each sample counts by its share of the domain: that is
-/// how such splits are weighted where the search split is not. Where the search split has weights, those
-/// of both are what the dataset's user gave, and only [`OutputError::weighted`] and `visible` heed them.
+/// If the search split has weights, those of both splits are the user's, and only
+/// [`OutputError::weighted`] and [`OutputError::visible`] use them. If it has none, weights of the
+/// validation split are the samples' shares of the domain, and every mean uses them.
+///
+/// ```
+/// use lgp::dataset::{Dataset, axis};
+/// use lgp::eval::{Evaluator, Score};
+/// use lgp::program::{Names, parse};
+///
+/// let data = Dataset::sampled([axis("x", 0.0..=1.0)], ["y"], |[x]| [2.0 * x])?;
+/// let program = parse("y = 2*x + 0.5", &Names::new(["x"], ["y"]))?;
+/// let score = Score::of(&program, &data, &mut Evaluator::default());
+/// assert!((score.joint_validation().max - 0.5).abs() < 1e-6);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 #[derive(Clone, Debug, PartialEq)]
 pub struct Score {
-    /// Errors on the search split, by output.
+    /// The errors on the search split, by output.
     pub search: Vec<OutputError>,
-    /// Errors on the validation split, by output.
+    /// The errors on the validation split, by output.
     pub validation: Vec<OutputError>,
-    /// The outputs' units, as [`output_units`] has them.
+    /// The outputs' units ([`output_units`]).
     pub units: Vec<f64>,
 }
 
@@ -42,17 +54,17 @@ impl Score {
     /// Scores a program whose outputs are the dataset's, in order.
     ///
     /// # Panics
-    /// If the numbers of inputs or outputs differ.
+    /// If the program and the dataset differ in the number of inputs or outputs.
     pub fn of(program: &Program, dataset: &Dataset, evaluator: &mut Evaluator) -> Score {
         let tape = Tape::new(program);
         let inputs = dataset.inputs.len();
         Score::of_values(dataset, |split| evaluator.outputs(&tape, &Samples::new(split, inputs)))
     }
 
-    /// Scores what something else than the interpreter makes of the samples of a split, by output.
+    /// Scores values computed elsewhere: `outputs` returns those of a split, by output.
     ///
     /// # Panics
-    /// If the number of outputs differs.
+    /// If `outputs` returns another number of outputs than the dataset has.
     pub fn of_values(dataset: &Dataset, mut outputs: impl FnMut(&Split) -> Vec<Vec<f32>>) -> Score {
         let inputs = dataset.inputs.len();
         let is_weighted = !dataset.search.weights.is_empty();
@@ -76,24 +88,24 @@ impl Score {
         Score { search, validation, units: output_units(&dataset.outputs) }
     }
 
-    /// Over all outputs, on the search split.
+    /// Returns the errors over all outputs on the search split.
     pub fn joint_search(&self) -> OutputError {
         joint(&self.search, &self.units)
     }
 
-    /// Over all outputs, on the validation split.
+    /// Returns the errors over all outputs on the validation split.
     pub fn joint_validation(&self) -> OutputError {
         joint(&self.validation, &self.units)
     }
 
-    /// Whether the program is finite on every sample.
+    /// Returns true if the program is finite on every sample.
     pub fn is_finite(&self) -> bool {
         self.search.iter().chain(&self.validation).all(|e| e.rmse.is_finite() && e.max.is_finite())
     }
 }
 
-/// The root mean square of the outputs' RMSEs, and the largest of their maxima. Where outputs differ in
-/// their units, each one's errors count in its unit, or one would hide all others; else nothing changes.
+/// Returns the root mean square of the outputs' RMSEs and the largest of their maxima. If units
+/// differ, each output's errors count in its unit, or one would hide all others.
 fn joint(errors: &[OutputError], units: &[f64]) -> OutputError {
     let joint = joint_unit(units);
     let alike = units.iter().all(|unit| *unit == joint);
@@ -115,23 +127,24 @@ fn joint(errors: &[OutputError], units: &[f64]) -> OutputError {
     }
 }
 
-/// The share of an output's largest value below which errors are no longer relative.
+/// The share of an output's largest value below which errors are relative to that share instead.
+/// Chosen by hand, unmeasured.
 const RELATIVE_FLOOR: f64 = 1e-3;
 
-/// The magnitude that an output's values have at least where errors are relative to them, given those of
-/// the search split.
+/// Returns the least magnitude that errors are taken relative to, given an output's values on the
+/// search split.
 pub fn relative_floor(targets: &[f32]) -> f64 {
     let largest = targets.iter().fold(f32::MIN_POSITIVE, |largest, y| largest.max(y.abs()));
     RELATIVE_FLOOR * f64::from(largest)
 }
 
-/// What an output should be on a split.
+/// An output's targets on a split.
 struct Sampled<'a> {
     targets: &'a [f32],
     floor: f64,
     dead_zone: Option<&'a [f32]>,
     split: &'a Split,
-    /// Whether the split's weights are those that the dataset's user gave.
+    /// True if the split's weights are the user's.
     is_weighted: bool,
 }
 
@@ -171,7 +184,7 @@ struct Mean {
 
 impl Mean {
     fn add(&mut self, weight: f64, value: f64) {
-        // Infinite also where it weighs nothing.
+        // A sample of weight zero counts here, too.
         self.is_infinite |= value.is_infinite();
         self.squares += weight * value.powi(2);
         self.weights += weight;

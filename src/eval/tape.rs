@@ -1,26 +1,26 @@
-//! A program prepared for the kernels: effective instructions with their results in slots,
-//! a slot reused as soon as nothing reads it any more.
+//! A program prepared for the kernels: effective instructions whose results are in slots, each
+//! reused after its last read.
 
 use super::BLOCK;
 use super::samples::Block;
 use crate::op::{MAX_ARITY, Op};
 use crate::program::{Arg, Program, use_counts};
 
-/// Memory of one kind that kernels read, and write to.
+/// A kind of memory that kernels read or write.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[repr(u8)]
 pub(super) enum Area {
     /// The samples' input columns.
     Columns,
-    /// The tape's constants, one block each.
+    /// The tape's constants, a block per constant.
     Consts,
-    /// Results that only other steps read.
+    /// The results that only other steps read.
     Slots,
-    /// Results that are outputs: slots too, but their caller may keep them.
+    /// The results that are outputs: slots as well, but the caller may keep them.
     Outputs,
 }
 
-/// Where a kernel reads or writes.
+/// A place that a kernel reads or writes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) struct Operand {
     pub area: Area,
@@ -31,16 +31,16 @@ pub(super) struct Operand {
 pub(super) struct Step {
     pub op: Op,
     pub to: Operand,
-    /// Places beyond the arity repeat the first.
+    /// The arguments' places; beyond the arity, the first one's again.
     pub from: [Operand; MAX_ARITY],
 }
 
-/// A prepared program. Preparing another one reuses the allocations.
+/// A program prepared for the kernels.
 #[derive(Clone, Debug, Default)]
 pub struct Tape {
     pub(super) inputs: usize,
     pub(super) steps: Vec<Step>,
-    /// Each constant in every lane.
+    /// The constants, each in all lanes of a block.
     pub(super) consts: Vec<Block>,
     pub(super) outputs: Vec<Operand>,
     pub(super) slots: usize,
@@ -57,7 +57,7 @@ impl Tape {
         tape
     }
 
-    /// Prepares another program in place of this one.
+    /// Prepares another program in place of this one, reusing the allocations.
     pub fn prepare(&mut self, program: &Program) {
         self.inputs = program.inputs;
         self.steps.clear();
@@ -72,7 +72,7 @@ impl Tape {
             }
         }
         use_counts(program, &mut self.remaining_reads);
-        self.set_constants(&program.consts);
+        self.fill_constants(&program.consts);
         for (i, instr) in program.instrs.iter().enumerate() {
             if self.remaining_reads[i] == 0 {
                 continue;
@@ -100,7 +100,15 @@ impl Tape {
     }
 
     /// Replaces the constants of the prepared program.
+    ///
+    /// # Panics
+    /// If there are not as many as before.
     pub fn set_constants(&mut self, consts: &[f32]) {
+        assert_eq!(consts.len(), self.consts.len(), "one value for each constant");
+        self.fill_constants(consts);
+    }
+
+    fn fill_constants(&mut self, consts: &[f32]) {
         self.consts.clear();
         self.consts.extend(consts.iter().map(|&c| Block([c; BLOCK])));
     }
@@ -113,8 +121,8 @@ impl Tape {
         }
     }
 
-    /// Notes one read of a result, and frees its slot after the last. An output counts as a
-    /// read that never comes, so its slot stays.
+    /// Counts one read of a result and frees its slot after the last. An output counts as a read
+    /// that never comes, so its slot stays.
     fn release(&mut self, arg: Arg) {
         if let Arg::Result(i) = arg {
             let reads = &mut self.remaining_reads[usize::from(i)];

@@ -1,18 +1,18 @@
-//! What a program's outputs are on every sample.
+//! The values of a program's outputs on samples.
 
 use super::samples::Block;
 use super::{BLOCK, Samples};
 
-/// The values of each output, by sample. Evaluating into it again reuses the allocation.
+/// The values of each output, by sample; evaluating into it again reuses the allocation.
 #[derive(Clone, Debug, Default)]
 pub struct Values {
     rows: usize,
-    /// Columns of whole blocks, one after the other.
+    /// The columns, one after the other, of whole blocks.
     pub(super) blocks: Vec<Block>,
 }
 
 impl Values {
-    /// One output's values, one for each sample.
+    /// Returns one output's values, by sample.
     ///
     /// # Panics
     /// If there is no such output.

@@ -1,4 +1,4 @@
-//! Derivatives by constants, in forward mode, as more instructions of the same program.
+//! Derivatives by constants, in forward mode, as further instructions of the same program.
 
 use crate::eval::Jacobian;
 use crate::op::Op;
@@ -7,19 +7,19 @@ use crate::program::{Arg, Draft, Program};
 /// A program extended by the derivatives of its outputs by each of its constants.
 #[derive(Clone, Debug)]
 pub struct Differentiated {
-    /// Its outputs are those of the original, then the derivatives that are not zero. Its first
-    /// constants are the original's.
+    /// The extended program: its outputs are the original's, then the derivatives that are not
+    /// zero; its first constants are the original's.
     pub program: Program,
-    /// The places of the derivatives among its outputs.
+    /// The places of the derivatives among the program's outputs.
     pub jacobian: Jacobian,
     scratch: Draft,
-    /// The derivative of each instruction by the constant at hand.
+    /// The derivative of each instruction by the current constant.
     tangents: Vec<Tangent>,
-    /// For each instruction, its derivatives by its arguments once some constant needs them.
+    /// The derivatives of each instruction by its arguments, once a constant needs them.
     partials: Vec<Option<[Tangent; 4]>>,
 }
 
-/// A derivative; most are zero or one, and cost nothing.
+/// A derivative; most are zero or one and need no instructions.
 #[derive(Clone, Copy, Debug, PartialEq)]
 enum Tangent {
     Zero,
@@ -44,12 +44,12 @@ impl Default for Differentiated {
 }
 
 impl Differentiated {
-    /// Differentiates effective code by each of its constants; replaces what was here.
+    /// Differentiates effective code by each of its constants, reusing the allocations.
     pub fn assign(&mut self, source: &Draft) {
         self.assign_free(source, |_| true);
     }
 
-    /// Differentiates by those constants that are free; the derivatives by the others are zero.
+    /// Differentiates by the constants that are free; the derivatives by the others are zero.
     pub(crate) fn assign_free(&mut self, source: &Draft, is_free: impl Fn(usize) -> bool) {
         self.scratch.copy_from(source);
         self.partials.clear();
@@ -97,7 +97,7 @@ impl Differentiated {
         }
     }
 
-    /// The chain rule at one instruction.
+    /// Applies the chain rule to one instruction.
     fn instruction(&mut self, source: &Draft, i: usize, parameter: u16) -> Tangent {
         let instr = source.instrs[i];
         let args = instr.args();
@@ -110,7 +110,7 @@ impl Differentiated {
         }
         let (a, b) = (args[0], args[args.len().min(2) - 1]);
         match instr.op() {
-            // Of two branches the one taken counts.
+            // Only the branch taken counts.
             Op::Min => return self.branch(a, b, inner[0], inner[1]),
             Op::Max => return self.branch(b, a, inner[0], inner[1]),
             Op::Select => return self.branch(a, b, inner[2], inner[3]),
@@ -131,7 +131,7 @@ impl Differentiated {
         sum
     }
 
-    /// `left` where `a < b`, else `right`.
+    /// Returns `left` where `a < b`, else `right`.
     fn branch(&mut self, a: Arg, b: Arg, left: Tangent, right: Tangent) -> Tangent {
         if left == right {
             return left;
@@ -140,7 +140,7 @@ impl Differentiated {
         Is(self.scratch.push(Op::Select, &[a, b, left, right]))
     }
 
-    /// The derivatives of `y = op(args)` by its arguments, as textbooks give them.
+    /// Returns the textbook derivatives of `y = op(args)` by its arguments.
     fn partial_derivatives(&mut self, op: Op, args: &[Arg], y: Arg) -> [Tangent; 4] {
         let a = args[0];
         let b = args.get(1).copied().unwrap_or(a);
@@ -233,7 +233,7 @@ impl Differentiated {
         }
     }
 
-    /// `∂aᵇ/∂a = b aᵇ/a` and `∂aᵇ/∂b = ln a · aᵇ`, both 0 at a = 0, where aᵇ is 0.
+    /// Returns `∂aᵇ/∂a = b aᵇ/a` and `∂aᵇ/∂b = ln a · aᵇ`, both 0 at a = 0, where aᵇ is 0.
     fn power(&mut self, a: Arg, b: Arg, y: Arg) -> [Tangent; 4] {
         let smallest = self.literal(1e-30);
         let positive = self.push(Op::Max, &[a, smallest]);
@@ -247,7 +247,7 @@ impl Differentiated {
         self.scratch.push(op, args)
     }
 
-    /// `x · y + sum`
+    /// Returns `x · y + sum`.
     fn add_product(&mut self, x: Tangent, y: Tangent, sum: Tangent) -> Tangent {
         match (x, y, sum) {
             (Zero, _, sum) | (_, Zero, sum) => sum,
@@ -279,7 +279,7 @@ impl Differentiated {
         }
     }
 
-    /// A constant of the derivative's own, behind the parameters.
+    /// Returns a constant of the derivatives' own, which follow the parameters.
     fn literal(&mut self, value: f32) -> Arg {
         let own = &self.scratch.consts[self.jacobian.parameters..];
         match own.iter().position(|c| c.to_bits() == value.to_bits()) {

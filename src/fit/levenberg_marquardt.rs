@@ -1,25 +1,25 @@
-//! Levenberg–Marquardt (Marquardt 1963, with his scaling by the diagonal).
+//! Least squares by Levenberg–Marquardt (Marquardt 1963, with his scaling by the diagonal).
 
 use super::Differentiated;
 use crate::deadline::Deadline;
 use crate::eval::{Evaluator, NormalEquations, Samples, Tape};
 use crate::program::Draft;
 
-/// When a fit ends.
+/// The end of a fit.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Stop {
-    /// Accepted steps, at most.
+    /// The most steps that are accepted.
     pub max_steps: u32,
-    /// A step that lowers the sum of squares by less than this share is the last.
+    /// The least gain: a step that lowers the sum of squares by a smaller share is the last.
     pub min_gain: f64,
 }
 
-/// Fits constants; owns the memory that it needs.
+/// A fitter of constants, with the scratch memory that it needs.
 #[derive(Clone, Debug, Default)]
 pub struct Fitter {
-    /// The evaluator that it works with.
+    /// The evaluator that runs the programs.
     pub evaluator: Evaluator,
-    /// Where fits on many samples end, with what they have by then.
+    /// The deadline at which fits to many samples stop, with the constants found by then.
     pub deadline: Deadline,
     pub(super) derivative: Differentiated,
     pub(super) tape: Tape,
@@ -32,30 +32,32 @@ pub struct Fitter {
     damping: f64,
 }
 
-/// Damping beyond which no step is tried any more.
+/// The damping beyond which no step is tried. This, the first damping and the factors that change
+/// it: chosen by hand, unmeasured.
 const MAX_DAMPING: f64 = 1e8;
 
-/// From so many samples on a fit may be cut.
+/// The least number of samples whose fit heeds the deadline. Chosen by hand, unmeasured.
 const MANY_SAMPLES: usize = 1024;
 
 impl Fitter {
-    /// One whose fits on many samples end at a deadline.
+    /// Makes a fitter whose fits to many samples stop at a deadline.
     pub fn until(deadline: &Deadline) -> Fitter {
         Fitter { deadline: deadline.clone(), ..Fitter::default() }
     }
 
-    /// Fits every constant of effective code to the samples by least squares, starting from
-    /// the values that it has, and gives the weighted sum of squared errors over all outputs. The
-    /// result is not finite, and the constants are as they were, if the draft's outputs or
-    /// derivatives are not finite on the samples.
+    /// Fits every constant of effective code to the samples by least squares, starting from its
+    /// value. Returns the weighted sum of squared errors over all outputs.
+    ///
+    /// The constants stay as they are if outputs or derivatives are not finite on the samples; the
+    /// sum is then not finite if outputs are not.
     ///
     /// # Panics
-    /// If the samples have other numbers of inputs or outputs than the program.
+    /// If the samples and the program differ in the number of inputs or outputs.
     pub fn fit(&mut self, draft: &mut Draft, samples: &Samples, stop: Stop) -> f64 {
         self.fit_free(draft, samples, stop, |_| true)
     }
 
-    /// [`Fitter::fit`] of those constants that are free, by index; the others keep their values.
+    /// As [`Fitter::fit`], but fits only the constants whose index is free.
     pub fn fit_free(
         &mut self,
         draft: &mut Draft,
@@ -72,7 +74,7 @@ impl Fitter {
         self.go_on(draft, samples, stop)
     }
 
-    /// Takes further steps of the last [`Fitter::fit`], which was of the same program and samples.
+    /// Continues the last [`Fitter::fit`], which must have had the same program and samples.
     pub fn go_on(&mut self, draft: &mut Draft, samples: &Samples, stop: Stop) -> f64 {
         if draft.consts.is_empty() || !is_finite(&self.current) {
             return self.current.sum_of_squares;
@@ -91,13 +93,14 @@ impl Fitter {
         self.current.sum_of_squares
     }
 
-    /// Whether there is no time left; of few samples a fit takes hardly longer than to look at the clock.
+    /// Returns true if the deadline is past and there are many samples: a fit to few takes hardly
+    /// longer than reading the clock.
     pub(super) fn is_cut(&self, samples: &Samples) -> bool {
         samples.rows() >= MANY_SAMPLES && self.deadline.is_past()
     }
 
-    /// One accepted step, with as much damping as it takes; the share by which it lowers
-    /// the sum of squares, or nothing where no step does.
+    /// Takes one step, with as much damping as it needs. Returns the share by which it lowers the
+    /// sum of squares; none if no step lowers it.
     fn step(&mut self, parameters: usize, samples: &Samples) -> Option<f64> {
         while self.damping < MAX_DAMPING {
             if self.solve(parameters, self.damping) && self.move_constants(parameters) {
@@ -120,7 +123,7 @@ impl Fitter {
         None
     }
 
-    /// Whether the constants change at all, and stay finite, by the step that was solved for.
+    /// Applies the solved step. Returns true if the constants change and stay finite.
     fn move_constants(&mut self, parameters: usize) -> bool {
         self.trial_constants.clone_from(&self.constants);
         for (constant, step) in self.trial_constants.iter_mut().zip(&self.step[..parameters]) {
@@ -130,8 +133,8 @@ impl Fitter {
         finite && self.trial_constants != self.constants
     }
 
-    /// Solves `(JᵀJ + damping · diag JᵀJ) step = Jᵀr` by Cholesky's factorisation; false where the matrix is
-    /// not positive definite in `f64`.
+    /// Solves `(JᵀWJ + damping · diag JᵀWJ) step = JᵀWr` by Cholesky factorisation. Returns false
+    /// if the matrix is not positive definite in `f64`.
     fn solve(&mut self, n: usize, damping: f64) -> bool {
         let matrix = &self.current.matrix;
         let largest = (0..n).map(|i| matrix[i * n + i]).fold(0.0, f64::max);
@@ -142,7 +145,7 @@ impl Fitter {
             for j in 0..=i {
                 let mut sum = matrix[i * n + j];
                 if i == j {
-                    // A constant without influence must not move, nor spoil the others.
+                    // A constant without influence must neither move nor make the matrix singular.
                     sum += damping * sum.max(largest * 1e-12);
                 }
                 for k in 0..j {

@@ -1,4 +1,4 @@
-//! The least maximum error of a program near the constants that it has.
+//! The least maximum error near a program's constants, by linear programs.
 
 use super::Fitter;
 use super::chebyshev::least_maximum;
@@ -6,21 +6,23 @@ use super::minimax::{errors, scaled};
 use crate::eval::{Samples, Values};
 use crate::program::Draft;
 
-/// The trust region's radius, relative to each constant: at first, and its bounds.
+/// The first, least and greatest radius of the trust region, relative to each constant. These and
+/// the gains that change it: chosen by hand, unmeasured.
 const FIRST_RADIUS: f64 = 0.1;
 const MIN_RADIUS: f64 = 1e-6;
 const MAX_RADIUS: f64 = 2.0;
 
-/// Where a linear program promises less than this share, it was the last.
+/// The least share by which a linear program must promise to lower the error, or it is the last.
+/// Chosen by hand, unmeasured.
 const MIN_GAIN: f64 = 1e-4;
 
-/// Constants are moved as if at least this large.
+/// The least magnitude that a constant's steps are relative to. Chosen by hand, unmeasured.
 const MIN_SCALE: f64 = 1e-2;
 
-/// Errors of all samples and outputs, and their derivatives by the constants, times the constants' scale.
+/// The errors of all samples and outputs, and their derivatives by the constants in units of scale.
 #[derive(Default)]
 struct Linearised {
-    /// Index and scale.
+    /// The index and the scale of each constant that matters.
     constants: Vec<(usize, f64)>,
     errors: Vec<f64>,
     slopes: Vec<Vec<f64>>,
@@ -69,7 +71,8 @@ impl Linearised {
         }
     }
 
-    /// The best step within the trust region, in units of its radius, and the largest error expected there.
+    /// Returns the best step within the trust region, in units of its radius, and the largest error
+    /// that the linearisation predicts for it.
     fn step(&self, radius: f64) -> Option<(Vec<f64>, f64)> {
         let mut spread = vec![0.0; self.errors.len()];
         for slope in &self.slopes {
@@ -79,7 +82,7 @@ impl Linearised {
             return None;
         }
         let sure = self.errors.iter().zip(&spread).map(|(error, spread)| error.abs() - spread);
-        // What no step can bring up to where another stays need not be looked at.
+        // A sample counts only if some step can bring its error up to the one that must remain.
         let sure = sure.fold(0.0, f64::max);
         let rows: Vec<usize> =
             (0..self.errors.len()).filter(|&i| self.errors[i].abs() + spread[i] >= sure).collect();
@@ -90,9 +93,10 @@ impl Linearised {
     }
 }
 
-/// Moves the constants by the solutions of linear programs: the least maximum error of the program
-/// linearised where it stands, within a trust region around it (Madsen 1975, "An algorithm for minimax solution of
-/// overdetermined systems of non-linear equations"). Gives the largest error.
+/// Moves the constants by the solutions of at most `most` linear programs, and returns the largest
+/// error, which is `best` before. Each makes the maximum error of the program, linearised at its
+/// constants, least within a trust region (Madsen 1975, "An algorithm for minimax solution of
+/// overdetermined systems of non-linear equations").
 pub(super) fn by_linear_programs(
     fitter: &mut Fitter,
     draft: &mut Draft,

@@ -1,4 +1,4 @@
-//! What is minimised.
+//! The error measures that searches and fits make small.
 
 use crate::dataset::Split;
 use crate::eval::{OutputError, Samples, relative_floor};
@@ -9,17 +9,17 @@ use std::str::FromStr;
 /// The error that a search or a fit makes small.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub enum Measure {
-    /// Root mean square over the samples.
+    /// The root mean square over the samples.
     #[default]
     Rmse,
     /// The largest absolute error ([`crate::fit::minimax`]).
     Max,
-    /// Root mean square, the samples weighted as the dataset says.
+    /// The root mean square with the dataset's weights.
     Weighted,
-    /// Root mean square of the errors relative to the value; values below a thousandth of an output's
-    /// largest count as that.
+    /// The root mean square of the errors relative to the value; a value below a thousandth of the
+    /// output's largest counts as that thousandth.
     Relative,
-    /// As weighted, of what exceeds the errors that nobody sees.
+    /// As `Weighted`, of the parts of errors beyond the dead zone.
     Visible,
 }
 
@@ -28,7 +28,7 @@ impl Measure {
     pub const ALL: [Measure; 5] =
         [Measure::Rmse, Measure::Max, Measure::Weighted, Measure::Relative, Measure::Visible];
 
-    /// What is made small where nothing else is asked for: weights that the data have are meant.
+    /// Returns the default measure of a split: one that uses the dead zones or weights that it has.
     pub fn usual(split: &Split) -> Measure {
         match (split.dead_zone.is_empty(), split.weights.is_empty()) {
             (false, _) => Measure::Visible,
@@ -37,12 +37,13 @@ impl Measure {
         }
     }
 
-    /// Samples of some rows of a split, weighted so that what is to be made small is their weighted sum of
-    /// squares over [`Samples::total_weight`]: its root is the error that [`OutputError::of`] gives, over all
-    /// outputs. Each output's errors count in its unit ([`crate::dataset::output_units`]); in relative errors units cancel.
+    /// Lays out some rows of a split, weighted for this measure: the root of the weighted sum of
+    /// squares over [`Samples::total_weight`] is the error that [`OutputError::of`] gives over all
+    /// outputs (for [`Measure::Max`], the RMSE). `units` has one entry per output
+    /// ([`crate::dataset::output_units`]), in which its errors count; relative errors have none.
     ///
     /// # Panics
-    /// As [`Samples::of_rows`]; if there are fewer units than outputs.
+    /// As [`Samples::of_rows`].
     pub fn samples(self, split: &Split, inputs: usize, rows: &[u32], units: &[f64]) -> Samples {
         let mut samples = Samples::of_rows(split, inputs, rows);
         let count = (samples.rows() * samples.outputs()) as f64;
@@ -70,24 +71,24 @@ impl Measure {
         samples
     }
 
-    /// [`Measure::samples`] of all rows.
+    /// As [`Measure::samples`], with all rows.
     pub fn all_samples(self, split: &Split, inputs: usize, units: &[f64]) -> Samples {
         let rows: Vec<u32> = (0..split.rows() as u32).collect();
         self.samples(split, inputs, &rows, units)
     }
 }
 
-/// Weights by units beyond this would leave `f32`.
+/// The smallest unit, and the inverse of the largest, such that `1 / unit²` stays within `f32`.
 const MIN_UNIT: f64 = 1.0 / (1u64 << 60) as f64;
 
-/// `1 / y²`, floored by the largest value of the whole column.
+/// Returns the weights `1 / y²`, with `|y|` at least the [`relative_floor`] of the whole column.
 fn relative(targets: &[f32], column: &[f32]) -> Vec<f32> {
     let floor = relative_floor(column);
     targets.iter().map(|y| f64::from(y.abs()).max(floor).powi(-2) as f32).collect()
 }
 
 impl OutputError {
-    /// The error in some measure: the very quantity that a search or a fit by it makes small.
+    /// Returns the error in a measure: the very quantity that a search or a fit by it makes small.
     pub fn of(&self, measure: Measure) -> f64 {
         let weighted = self.weighted.unwrap_or(self.rmse);
         match measure {

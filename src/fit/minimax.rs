@@ -1,4 +1,4 @@
-//! The least maximum error.
+//! Fits that make the largest error small.
 
 use super::linear_programs::by_linear_programs;
 use super::rounding::Comparison;
@@ -7,21 +7,21 @@ use super::{Fitter, Stop};
 use crate::eval::{Samples, Tape, Values};
 use crate::program::{Draft, Program};
 
-/// How much is done for the least maximum error.
+/// The effort of a fit for the least maximum error.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Rounds {
-    /// Times that samples are weighted anew.
+    /// The most times that samples are weighted anew.
     pub most: u32,
-    /// Between two of them.
+    /// The end of the least-squares fit after each.
     pub steps: Stop,
-    /// Linear programs that are solved then, at most.
+    /// The most linear programs solved after that.
     pub linear_programs: u32,
-    /// The error that is to be beaten: what stays far above it is given up.
+    /// The error to be beaten; a fit that stays far above it is given up.
     pub wanted: f64,
 }
 
 impl Rounds {
-    /// Until next to nothing is gained.
+    /// Rounds until next to nothing is gained. Chosen by hand, unmeasured.
     pub const TO_CONVERGENCE: Rounds = Rounds {
         most: 8,
         steps: Stop { max_steps: 3, min_gain: 1e-4 },
@@ -30,11 +30,12 @@ impl Rounds {
     };
 }
 
-/// Fits every constant so that the largest absolute error over all samples and outputs is small, from
-/// the constants that it has, and gives that error. First by least squares, in which samples gain
-/// weight by their error, round by round (Lawson 1961, "Contributions to the theory of linear least
-/// maximum approximation"), then by linear programs. Never worse than what it starts from. Errors count
-/// times the square roots of their samples' weights.
+/// Fits every constant, starting from its value, so that the largest absolute error over all
+/// samples and outputs is small. Returns that error, which is never larger than before. Errors are
+/// multiplied by the square roots of their samples' weights.
+///
+/// First come least-squares fits between which samples gain weight by their errors (Lawson 1961,
+/// "Contributions to the theory of linear least maximum approximation"), then linear programs.
 ///
 /// # Panics
 /// As [`Fitter::fit`].
@@ -42,7 +43,7 @@ pub fn minimax(fitter: &mut Fitter, draft: &mut Draft, samples: &Samples, rounds
     minimax_free(fitter, draft, samples, rounds, |_| true)
 }
 
-/// [`minimax`] of those constants that are free, by index; the others keep their values.
+/// As [`minimax`], but fits only the constants whose index is free.
 pub fn minimax_free(
     fitter: &mut Fitter,
     draft: &mut Draft,
@@ -95,16 +96,18 @@ fn by_weights(
     best
 }
 
-/// Times the error wanted: from beyond the first a least-squares fit, from beyond the second one with weights
-/// hardly ever comes down to it.
+/// The multiples of the wanted error from beyond which it is hardly ever reached: by reweighting
+/// (`FAR`), by linear programs (`NEAR`).
 const FAR: f64 = 3.0;
 const NEAR: f64 = 1.3;
 
-/// So that a sample that happens to be met exactly can come back.
+/// The least growth of a weight, so that a sample met exactly by chance can come back. Chosen by
+/// hand, unmeasured.
 const MIN_GROWTH: f32 = 0.05;
 
-/// Rounds constants one after the other, each to 0 or the fewest decimal digits with which the largest
-/// error stays within `(1 + allowance)` of what it was, or below the data's own rounding. Gives that error.
+/// Rounds the constants one after the other, each to 0 or to the fewest decimal digits with which
+/// the largest error stays within `(1 + allowance)` times what it was, or below the data's own
+/// rounding. Returns the largest error.
 ///
 /// # Panics
 /// As [`Fitter::fit`].
@@ -132,7 +135,7 @@ pub fn shorten_minimax(
     errors(fitter, draft, samples, &mut Values::default()).1
 }
 
-/// To a mean of 1, with a floor that keeps every sample in sight.
+/// Scales weights to a mean of 1, with a floor that keeps every sample in sight.
 fn normalise(weights: &mut [Vec<f32>]) {
     const FLOOR: f64 = 1e-6;
     let count: usize = weights.iter().map(Vec::len).sum();
@@ -142,7 +145,7 @@ fn normalise(weights: &mut [Vec<f32>]) {
     weights.iter_mut().flatten().for_each(|w| *w = floored(*w));
 }
 
-/// The mean and the largest absolute error; both infinite if any output is not finite.
+/// Returns the mean and the largest absolute error; both infinite if any output is not finite.
 pub(super) fn errors(
     fitter: &mut Fitter,
     draft: &Draft,
@@ -166,7 +169,7 @@ pub(super) fn errors(
     (sum / (samples.rows() * samples.outputs()) as f64, largest)
 }
 
-/// An output's errors, times the square roots of the weights.
+/// Returns an output's errors, times the square roots of the weights.
 pub(super) fn scaled(
     samples: &Samples,
     values: &Values,

@@ -1,4 +1,23 @@
-//! Constants: how a program's are fitted to samples.
+//! Fitting the constants of a program to samples.
+//!
+//! A [`Fitter`] makes the sum of squared errors small, [`minimax`] the largest error. [`shorten`]
+//! and [`drop_negligible`] then remove digits and constants that make no difference. [`fit_model`]
+//! fits the user's own model, and a [`Measure`] says which error is to be small.
+//!
+//! ```
+//! use lgp::dataset::Split;
+//! use lgp::eval::Samples;
+//! use lgp::fit::{Fitter, Stop};
+//! use lgp::program::{Names, parse};
+//!
+//! let columns = vec![vec![0.0, 1.0, 2.0], vec![1.0, 3.0, 5.0]];
+//! let samples = Samples::new(&Split { columns, ..Split::default() }, 1);
+//! let mut draft = parse("y = 1.5*x + 0.5", &Names::new(["x"], ["y"]))?.into_draft();
+//! let stop = Stop { max_steps: 50, min_gain: 1e-9 };
+//! assert!(Fitter::default().fit(&mut draft, &samples, stop) < 1e-9);
+//! assert!((draft.consts[0] - 2.0).abs() < 1e-4 && (draft.consts[1] - 1.0).abs() < 1e-4);
+//! # Ok::<(), lgp::program::ParseError>(())
+//! ```
 
 mod chebyshev;
 mod derivative;

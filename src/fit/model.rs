@@ -1,4 +1,4 @@
-//! A model of the user's own: some constants free, some within bounds, from several starts.
+//! The fit of a user's own model: some constants free, within bounds, from several starts.
 
 use super::shorten::shorten_free;
 use super::{Fitter, Measure, Rounds, Stop, minimax_free};
@@ -10,23 +10,26 @@ use rand_chacha::ChaCha8Rng;
 /// A constant to be fitted.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Parameter {
-    /// Its place in the constant table.
+    /// The index in the constant table.
     pub index: usize,
-    /// The least and the greatest value that it may have.
+    /// The least and the greatest value; infinite if unbounded.
     pub bounds: [f32; 2],
 }
 
+/// The end of the fit from each start. Chosen by hand, unmeasured.
 const TO_CONVERGENCE: Stop = Stop { max_steps: 500, min_gain: 1e-10 };
 
-/// Fits the parameters of effective code, all other constants keeping their values, and
-/// gives the loss of the best of `starts` fits: the weighted sum of squares, or for [`Measure::Max`] the
-/// largest error. The first start is what the program has; the others are drawn within the bounds,
-/// or where there are none, up to three octaves from it. A parameter that would leave its bounds
-/// is held at the one that it meets, and the others are fitted again. Digits that make no difference beyond the
-/// data's own rounding are left out.
+/// Fits the parameters of effective code, all other constants keeping their values. Returns the
+/// loss of the best of `starts` fits: the weighted sum of squares, or for [`Measure::Max`] the
+/// largest error.
+///
+/// The first start is the program's constants. Others are drawn within the bounds, or, if one is
+/// infinite, up to three octaves from the program's, of either sign. A parameter that would leave
+/// its bounds is held at the one that it meets, and the others are fitted again. Except for
+/// [`Measure::Max`], digits below the data's own rounding are removed.
 ///
 /// # Panics
-/// As [`Fitter::fit`].
+/// As [`Fitter::fit`]; if a parameter is not in the constant table, or its bounds are out of order.
 pub fn fit_model(
     program: &mut Draft,
     samples: &Samples,
@@ -59,7 +62,8 @@ pub fn fit_model(
     least
 }
 
-/// Parameters without digits below the data's rounding, where all stay within their bounds; the loss.
+/// Removes the parameters' digits below the data's rounding and returns the loss; changes nothing
+/// and returns none if a parameter would leave its bounds.
 fn rounded_within(
     fitter: &mut Fitter,
     program: &mut Draft,

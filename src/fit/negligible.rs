@@ -1,4 +1,4 @@
-//! Constants that do nothing, within what may be lost: summands, factors, exponents.
+//! Removal of constants that make no difference: summands, factors, exponents.
 
 use super::rounding::Comparison;
 use super::{Fitter, Stop};
@@ -6,15 +6,16 @@ use crate::eval::Samples;
 use crate::program::{Arg, Draft};
 use crate::simplify::Simplifier;
 
-/// After a constant was dropped, the others make up for it.
+/// The fit by which the others make up for a dropped constant. Chosen by hand, unmeasured.
 const MAKE_UP: Stop = Stop { max_steps: 6, min_gain: 1e-4 };
 
-/// Times what may be lost: from beyond it the others hardly make up for a constant.
+/// The multiple of the error allowed beyond which the others hardly make up for a constant.
 const NEAR: f64 = 16.0;
 
-/// Drops, one after the other, the constants without which the sum of squares, the others fitted again, stays
-/// within `(1 + allowance)` of what it was, or below the data's own rounding: a summand or a term of 0, a factor,
-/// a divisor or an exponent of 1 or −1. Smaller programs result, folded.
+/// Drops, one after the other, the constants without which the sum of squares, the others fitted
+/// again, stays within `(1 + allowance)` times what it was, or below the data's own rounding. A
+/// constant is dropped by making it a summand or factor of 0, or a factor, divisor or exponent of 1
+/// or −1, and folding the program, which becomes smaller.
 ///
 /// # Panics
 /// As [`Fitter::fit`].
@@ -34,7 +35,7 @@ pub fn drop_negligible(fitter: &mut Fitter, draft: &mut Draft, samples: &Samples
     });
 }
 
-/// [`drop_negligible`] by the largest error, the other constants as they are.
+/// As [`drop_negligible`], but by the largest error, without fitting the other constants again.
 ///
 /// # Panics
 /// As [`Fitter::fit`].
@@ -64,14 +65,14 @@ fn drop_within(limit: f64, draft: &mut Draft, mut error: impl FnMut(&mut Draft) 
             (error(&mut trial) <= limit).then_some(trial)
         });
         match dropped {
-            // The place is the next one's now.
+            // The next constant has this place now.
             Some(smaller) => *draft = smaller,
             None => constant += 1,
         }
     }
 }
 
-/// The program with a constant replaced by one that an operation may do without; nothing where none does.
+/// Returns the program with a constant set to a value and folded; none if that is not smaller.
 fn without(
     draft: &Draft,
     constant: usize,
@@ -85,7 +86,7 @@ fn without(
     (size(&folded) < size(draft)).then_some(folded)
 }
 
-/// Instructions, and constants read.
+/// Counts the instructions and the reads of constants.
 fn size(draft: &Draft) -> usize {
     let args = draft.instrs.iter().flat_map(|instr| instr.args()).chain(&draft.outputs);
     draft.instrs.len() + args.filter(|arg| matches!(arg, Arg::Const(_))).count()

@@ -1,4 +1,4 @@
-//! What no formula can win: errors below the rounding of the data.
+//! Errors that no formula is to blame for: the data's rounding and standard errors.
 
 use super::Fitter;
 use super::minimax::errors;
@@ -6,27 +6,28 @@ use crate::dataset::Split;
 use crate::eval::{OutputError, Samples, Tape, Values, relative_floor};
 use crate::program::{Draft, Program};
 
-/// The error that is rounding, relative to a value: data in `f32` of a law, and the law evaluated in `f32` at
-/// inputs rounded to it, differ by a few units of 2⁻²⁴.
+/// The error that counts as rounding, relative to a value: a law's data in `f32`, and the law
+/// evaluated in `f32` at rounded inputs, differ by a few units of 2⁻²⁴.
 const ROUNDING: f64 = 4.0 / (1 << 24) as f64;
 
-/// How errors on some samples compare: of two below the data's rounding neither is the smaller.
+/// A comparison of errors on samples: of two below the data's rounding, neither is the smaller.
 #[derive(Debug)]
 pub(super) struct Comparison<'a> {
     samples: &'a Samples,
     by_maximum: bool,
-    /// By output: the weighted sum of squares, or the largest error, that is rounding or within standard errors.
+    /// By output, the weighted sum of squares or the largest error that counts as rounding or is
+    /// within standard errors.
     rounding: Vec<f64>,
     values: Values,
 }
 
 impl<'a> Comparison<'a> {
-    /// Of weighted sums of squares.
+    /// Makes a comparison of weighted sums of squares.
     pub(crate) fn by_squares(samples: &'a Samples) -> Comparison<'a> {
         Comparison::new(samples, false)
     }
 
-    /// Of largest errors.
+    /// Makes a comparison of largest errors.
     pub fn by_maximum(samples: &'a Samples) -> Comparison<'a> {
         Comparison::new(samples, true)
     }
@@ -53,7 +54,8 @@ impl<'a> Comparison<'a> {
         self.samples
     }
 
-    /// A draft's error, that of each output at least its rounding; infinite where an output is not finite.
+    /// Returns a draft's error, with that of each output raised to its rounding; infinite if an
+    /// output is not finite.
     pub fn error(&mut self, fitter: &mut Fitter, draft: &Draft) -> f64 {
         if self.by_maximum {
             let (_, largest) = errors(fitter, draft, self.samples, &mut self.values);
@@ -68,10 +70,10 @@ impl<'a> Comparison<'a> {
     }
 }
 
-/// By how much an output's values may be off without any formula being to blame.
+/// The errors of an output's values that no formula is to blame for.
 struct Uncertainty<'a> {
     targets: &'a [f32],
-    /// Where errors below are not relative.
+    /// The least magnitude that rounding is relative to.
     floor: f64,
     standard_errors: Option<&'a [f32]>,
 }
@@ -89,8 +91,8 @@ impl Uncertainty<'_> {
         self.standard_errors.map_or(0.0, |errors| errors[row].into())
     }
 
-    /// What the weighted sum of squared errors of the very law hardly exceeds: of rounding, and of standard errors its
-    /// mean and two of its own standard deviations.
+    /// Returns a weighted sum of squared errors that the very law hardly exceeds: its mean, by
+    /// rounding and standard errors, plus two of its standard deviations.
     fn sum_of_squares(&self, weight: impl Fn(usize) -> f64) -> f64 {
         let rows = || 0..self.targets.len();
         let variance = |row: usize| weight(row) * self.standard_error(row).powi(2);
@@ -99,7 +101,8 @@ impl Uncertainty<'_> {
         rows().map(mean).sum::<f64>() + 2.0 * spread
     }
 
-    /// The same of its largest scaled error: the largest of so many normal ones is about √(2 ln n).
+    /// Returns a largest scaled error that the very law hardly exceeds: the largest of n normal
+    /// errors is about √(2 ln n) standard errors.
     fn largest(&self, scale: impl Fn(usize) -> f64) -> f64 {
         let times = (2.0 * (self.targets.len() as f64).ln()).sqrt();
         let error = |row| self.rounding(row).max(times * self.standard_error(row)) * scale(row);
@@ -107,8 +110,8 @@ impl Uncertainty<'_> {
     }
 }
 
-/// The errors of an output on a split that no formula can be blamed for: those of rounding, and the standard
-/// errors of its values.
+/// Returns the errors of an output on a split that no formula is to blame for: those of rounding,
+/// and the standard errors of its values.
 pub fn rounding_errors(split: &Split, inputs: usize, output: usize) -> OutputError {
     let targets = &split.columns[inputs + output];
     let uncertainty = Uncertainty {

@@ -1,21 +1,21 @@
-//! Constants with few digits.
+//! Rounding of constants to few digits.
 
 use super::rounding::Comparison;
 use super::{Fitter, Stop};
 use crate::eval::Samples;
 use crate::program::Draft;
 
-/// After a constant was rounded, the others make up for it.
+/// The fit by which the others make up for a rounded constant. Chosen by hand, unmeasured.
 const MAKE_UP: Stop = Stop { max_steps: 6, min_gain: 1e-4 };
 
 const NOTHING: Stop = Stop { max_steps: 0, min_gain: 0.0 };
 
-/// Digits beyond which an `f32` constant is left as it is.
+/// The number of digits beyond which an `f32` constant is left as it is.
 pub(super) const MAX_DIGITS: usize = 7;
 
-/// Rounds constants one after the other, each to 0 or the fewest decimal digits with which the sum of
-/// squares, the remaining constants fitted again, stays within `(1 + allowance)` of what it was, or below the
-/// data's own rounding. Gives the sum of squares.
+/// Rounds the constants one after the other, each to 0 or to the fewest decimal digits with which
+/// the sum of squares, the remaining constants fitted again, stays within `(1 + allowance)` times
+/// what it was, or below the data's own rounding. Returns the sum of squares.
 ///
 /// # Panics
 /// As [`Fitter::fit`].
@@ -23,7 +23,7 @@ pub fn shorten(fitter: &mut Fitter, draft: &mut Draft, samples: &Samples, allowa
     shorten_free(fitter, draft, samples, allowance, |_| true)
 }
 
-/// [`shorten`] of those constants that are free, by index; the others keep their values.
+/// As [`shorten`], but rounds only the constants whose index is free.
 pub(crate) fn shorten_free(
     fitter: &mut Fitter,
     draft: &mut Draft,
@@ -48,7 +48,7 @@ pub(crate) fn shorten_free(
             }
             trial.copy_from(draft);
             trial.consts[constant] = rounded(draft.consts[constant], digits);
-            // What is nearly 0 needs nothing to make up for it.
+            // The loss of a constant that is nearly 0 needs no making up for.
             let stop = if digits == 0 { NOTHING } else { MAKE_UP };
             let trial_loss = fitter.fit_free(&mut trial, samples, stop, |i| later.contains(&i));
             if comparison.error(fitter, &trial) <= limit {
@@ -61,8 +61,8 @@ pub(crate) fn shorten_free(
     loss
 }
 
-/// Constants, those first that nearly are numbers of one digit, and may be: what is nearly 1 shall not stay so to
-/// make up for a third that was cut off.
+/// Orders constants, those first that are nearly numbers of one digit and may become them: or one
+/// that is nearly 1 would stay so to make up for a third that was cut off.
 fn simplest_first(
     mut constants: Vec<usize>,
     limit: f64,
@@ -85,10 +85,10 @@ fn simplest_first(
     constants
 }
 
-/// By what share a fitted constant may be off a law's.
+/// The share by which a fitted constant may differ from a law's. Chosen by hand, unmeasured.
 const NEARLY: f32 = 1e-5;
 
-/// The value with so many significant decimal digits; 0 with none.
+/// Returns the value rounded to `digits` significant decimal digits; 0 for none.
 pub(super) fn rounded(value: f32, digits: usize) -> f32 {
     if digits == 0 {
         return 0.0;

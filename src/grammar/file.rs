@@ -1,6 +1,6 @@
 //! Reads settings in `.ron` files, some of which come with the program: grammars, GPU profiles.
 
-use crate::dataset::{LARGEST_TEXT, read_text};
+use crate::file::read_text;
 use crate::op::Op;
 use crate::suggest::did_you_mean;
 use ron::extensions::Extensions;
@@ -44,7 +44,7 @@ pub(crate) fn find<'a>(
             known: known.join(", "),
         });
     }
-    read_text(path, LARGEST_TEXT).map(Cow::Owned).map_err(|reason| FileError::Unreadable {
+    read_text(path).map(Cow::Owned).map_err(|reason| FileError::Unreadable {
         kind,
         path: name_or_path.to_owned(),
         reason,

@@ -31,10 +31,10 @@ pub enum Family {
 }
 
 /// Calls `$then! { rows }` with the table: variant, name in formula text, arguments; then
-/// `commutes` where the first two arguments may be swapped, `piecewise` where the
-/// function has a kink or a jump, `needs_positive` where it is NaN of a negative first argument; family;
-/// the accuracy of the interpreter, which `num::math` explains and measures, and the accuracy that GPUs owe
-/// (see [`Op::gpu_accuracy`]); meaning over [`Lanes`].
+/// `commutes` if the first two arguments may be swapped, `piecewise` if the function has a kink or
+/// a jump, `needs_positive` if it is NaN for a negative first argument; family; the accuracy of the
+/// interpreter, which `num::math` explains and measures, and the accuracy that GPUs owe (see
+/// [`Op::gpu_accuracy`]); meaning over [`Lanes`].
 macro_rules! operations {
     ($then:ident) => {
         $then! {

@@ -58,6 +58,7 @@ impl Instr {
     ///
     /// # Panics
     /// If `args` has fewer entries than the operation takes.
+    #[inline]
     pub fn new(op: Op, args: &[Arg]) -> Instr {
         let mut all = [Arg::Input(0); MAX_ARITY];
         all[..op.arity()].copy_from_slice(&args[..op.arity()]);
@@ -65,16 +66,19 @@ impl Instr {
     }
 
     /// Returns the operation.
+    #[inline]
     pub fn op(&self) -> Op {
         self.op
     }
 
     /// Returns the arguments, as many as the operation takes.
+    #[inline]
     pub fn args(&self) -> &[Arg] {
         &self.args[..self.op.arity()]
     }
 
     /// Returns the arguments for changing; [`Program::verify`] checks what they refer to.
+    #[inline]
     pub fn args_mut(&mut self) -> &mut [Arg] {
         &mut self.args[..self.op.arity()]
     }

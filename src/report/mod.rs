@@ -35,8 +35,9 @@ pub use error::Error;
 pub use pictures::write_plots;
 pub use timing::Timing;
 
-use crate::dataset::{Dataset, replace_file};
+use crate::dataset::Dataset;
 use crate::deadline::Deadline;
+use crate::file::replace_file;
 use crate::run::{
     Outcome, RecordError, Run, Subject, SubjectError, Trace, load_front, load_run, load_trace,
 };

@@ -2,8 +2,8 @@
 //! made of what is kept, so that it stays the same.
 
 use super::{Error, Report, write_file};
-use crate::dataset::{LARGEST_TEXT, read_text};
 use crate::eval::{Evaluator, Isa, Samples, Tape};
+use crate::file::read_text;
 use crate::program::Program;
 use crate::run::RecordError;
 use serde::{Deserialize, Serialize};
@@ -87,7 +87,7 @@ pub(super) fn load(folder: &Path) -> Result<Vec<Timing>, Error> {
     if !path.exists() {
         return Ok(Vec::new());
     }
-    let text = read_text(&path, LARGEST_TEXT)
+    let text = read_text(&path)
         .map_err(|reason| RecordError::Unreadable { path: path.clone(), reason })?;
     let damaged = |error: serde_json::Error| RecordError::Damaged {
         path,

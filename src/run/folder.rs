@@ -1,5 +1,5 @@
-//! A run's folder: its files' names, who may write to it, and in which order, so that nobody ever reads
-//! files of two runs.
+//! A run's folder: the names of its files, who may write to it, and the order of writing, by which
+//! nobody ever reads files of two runs.
 //!
 //! | file | is |
 //! |---|---|
@@ -10,19 +10,20 @@
 //! | `front.txt`, `snippets/`, pictures, `report.html` | what is made of the others |
 //! | `lock` | while there is an owner: who it is |
 //!
-//! While a search goes on, only `checkpoint.bin` is written, replaced whole; so a run that is resumed can
-//! be read as it was until it has ended anew. At the end all files are written beside those that are
-//! there. Then `run.ron` and what was made of the old fronts is removed, the new files are put in their
-//! places, and `run.ron` comes last. Whenever the process is killed, a folder with `run.ron` is a whole
-//! run; one without is that of a search that has not ended, and its checkpoint is whole. `run.ron` lists
-//! the checksums of the files that are read with it: so one who reads while they are exchanged is told.
+//! During a search only `checkpoint.bin` is written, always replaced whole, so a resumed run can be
+//! read as it was until it ends anew. At the end all new files are first written beside the old
+//! ones. Then `run.ron` and the files made of the old fronts are removed, and the new files are
+//! moved into place, `run.ron` last. Whenever the process is killed, a folder with `run.ron` is a
+//! whole run; one without it is a search that has not ended, and its checkpoint is whole. `run.ron`
+//! lists the checksums of the files that are read with it, so that whoever reads during the
+//! exchange gets an error.
 //!
-//! The lock is the operating system's, on an open file: it ends with the process, however that ends. What
-//! is left of the file then means nothing.
+//! The lock is the operating system's, on an open file: it ends with the process, however that
+//! ends. A file that is left behind means nothing.
 
 use super::{Outcome, RecordError, Run, Trace, snippet};
-use crate::dataset::{StagedFile, TEMPORARY, remove_file, replace_file};
 use crate::emit::Language;
+use crate::file::{StagedFile, TEMPORARY, remove_file, replace_file};
 use crate::fit::Measure;
 use crate::search::Front;
 use std::ffi::OsStr;

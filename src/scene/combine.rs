@@ -1,4 +1,4 @@
-//! Formulas over a dataset's columns as formulas over what a scene leaves of them.
+//! Rewriting formulas over a dataset's columns as formulas over a view's.
 
 use super::View;
 use super::view::Input;
@@ -6,12 +6,12 @@ use crate::program::{Arg, Draft, Outer, Program, effective};
 use crate::simplify::Simplifier;
 
 impl View<'_> {
-    /// A formula over the dataset's inputs, for the outputs of the dataset that are named, as one over
-    /// the view's inputs for some of the view's outputs: fixed inputs folded, outputs combined.
-    /// Nothing where it lacks an output that is needed.
+    /// Rewrites a formula over the dataset's inputs as one over the view's: fixed inputs are
+    /// folded, outputs combined. `defined` names the dataset's outputs that it computes, `wanted`
+    /// the view's outputs to return. None if the formula lacks an output that is needed.
     ///
     /// # Panics
-    /// If the program has other numbers of inputs than the dataset or of outputs than `defined`.
+    /// If the program's number of inputs is not the dataset's, or that of outputs not `defined`'s.
     pub fn program(
         &self,
         program: &Program,
@@ -23,7 +23,7 @@ impl View<'_> {
         if unchanged { Program::verify(draft).ok() } else { folded(&draft) }
     }
 
-    /// [`View::program`] with nothing folded: fixed inputs are constants.
+    /// As [`View::program`], but nothing is folded: fixed inputs are constants.
     pub(super) fn substituted(
         &self,
         program: &Program,
@@ -38,12 +38,13 @@ impl View<'_> {
         Some(self.outer(defined, wanted)?.append(&child))
     }
 
-    /// The outputs that are wanted, over the open inputs and, as holes, the dataset's outputs that are defined.
+    /// Returns the wanted outputs as an outer form over the open inputs, whose holes are the
+    /// defined outputs of the dataset; none if they need another output.
     fn outer(&self, defined: &[String], wanted: &[String]) -> Option<Outer> {
         let open = self.open_inputs().count();
         let mut form = Draft { inputs: open + defined.len(), ..Draft::default() };
         let mut arguments = self.arguments(&mut form);
-        // An argument that stands for an output that is not defined.
+        // A placeholder for outputs that are not defined.
         let lacking = Arg::Input(u16::MAX);
         for column in &self.whole.outputs {
             let hole = defined.iter().position(|name| *name == column.name);
@@ -65,7 +66,7 @@ impl View<'_> {
             .map(|form| Outer::new(form, defined.len()))
     }
 
-    /// What the dataset's inputs are: open, or constants of a draft.
+    /// Returns the dataset's inputs as arguments: open inputs, or new constants of the draft.
     fn arguments(&self, draft: &mut Draft) -> Vec<Arg> {
         let mut open = (0..).map(Arg::Input);
         let argument = |input: &Input| match input {
@@ -76,7 +77,7 @@ impl View<'_> {
     }
 }
 
-/// A draft with constants folded, as any compiler would; nothing where it is no program.
+/// Folds constants as any compiler would; none if the draft is then no program.
 pub(super) fn folded(draft: &Draft) -> Option<Program> {
     let mut simple = Draft::default();
     Simplifier::default().simplify(draft, &mut simple);

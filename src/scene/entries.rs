@@ -1,4 +1,4 @@
-//! Maps in files, in the order of the file, no key twice.
+//! Serialisation of maps in files, which keep the file's order and have no key twice.
 
 use serde::de::{Deserialize, Deserializer, Error, MapAccess, Visitor};
 use serde::ser::{Serialize, Serializer};

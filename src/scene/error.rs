@@ -1,4 +1,4 @@
-//! The reasons why a scene cannot be used.
+//! The errors of scenes.
 
 use crate::dataset::{self, NameFault};
 use crate::grammar::FileError;
@@ -6,14 +6,15 @@ use crate::printable::printable;
 use crate::program::{ParseError, shortest};
 use std::path::PathBuf;
 
-/// Why a scene cannot be used. `scene` is its name, `dataset` that of the dataset it was to be used on.
+/// The reason why a scene cannot be used. `scene` and `dataset` are the names of the scene and of
+/// the dataset that it was applied to.
 #[allow(missing_docs, reason = "each message names its fields")]
 #[derive(Debug, thiserror::Error)]
 pub enum Error {
     #[error(transparent)]
     File(#[from] FileError),
     #[error(
-        "a scene or a tier of it cannot be called `{}`: {fault}; call it otherwise",
+        "a scene or a tier of it cannot be called `{}`: {fault}; choose another name",
         printable(name)
     )]
     Name { name: String, fault: NameFault },
@@ -24,7 +25,7 @@ pub enum Error {
     NoSuchScene { name: String, hint: String, folder: PathBuf, known: String },
 
     #[error(
-        "scene {scene}: {part}: {} of `{}` is no number that a 32-bit float can have; write another",
+        "scene {scene}: {part}: {} of `{}` is no finite 32-bit float; write another number",
         shortest(*value),
         printable(name)
     )]
@@ -35,7 +36,7 @@ pub enum Error {
         part: &'static str,
         name: String,
         dataset: String,
-        /// What it may have been meant to be, and what there is.
+        /// The name probably meant, and the known names.
         known: String,
     },
     #[error(
@@ -94,7 +95,7 @@ pub enum Error {
     },
     #[error("scene {scene}: output `{output}`: {error}")]
     Expression { scene: String, output: String, error: ParseError },
-    #[error("scene {scene}: output `{output}` is called like an input; choose another name")]
+    #[error("scene {scene}: output `{output}` has the name of an input; choose another name")]
     OutputIsInput { scene: String, output: String },
     #[error(
         "scene {scene}: output `{output}` is {value} on row {row} of the {split} split of {dataset}; write an expression that is finite there, or leave the row out by a range"

@@ -1,15 +1,18 @@
-//! The rows of a table at one value of an input.
+//! The rows of a split at one value of an input.
 
 use crate::dataset::Split;
 
-/// Planes of a grid on which values between them are interpolated.
+/// The number of a grid's planes from which a value between them is interpolated. Chosen by hand,
+/// unmeasured.
 const PLANES: usize = 4;
 
-/// How far from a value, as a share of the domain, a row that has it may be.
+/// The distance within which values are the same, as a share of the domain. Chosen by hand,
+/// unmeasured.
 const SAME: f64 = 1e-6;
 
-/// A split at one value of the input in column `axis`, without that column. On a grid, by Lagrange's
-/// polynomial through the nearest planes, where none has the value; else, the rows that have it.
+/// Returns a split at one value of the input in column `axis`, without that column. On a grid it is
+/// the plane with the value, or Lagrange's polynomial through the nearest planes; otherwise it is
+/// the rows with the value.
 ///
 /// # Errors
 /// The nearest value that occurs, if the rows are no grid and none has it, or if it lies more than
@@ -90,7 +93,7 @@ fn on_grid(split: &Split, axis: usize, value: f64) -> Result<Split, f64> {
 mod tests {
     use super::*;
 
-    /// `f` on a grid of 5 × 3 points.
+    /// Samples `f` on a grid of 5 × 3 points.
     fn grid(f: impl Fn(f32, f32) -> f32) -> Split {
         let points: Vec<(f32, f32)> =
             (0..5).flat_map(|i| (0..3).map(move |j| (i as f32 / 4.0, j as f32 / 2.0))).collect();

@@ -1,27 +1,27 @@
-//! How often values of inputs occur.
+//! Histograms: the frequencies of inputs' values.
 
 use super::Error;
 use serde::{Deserialize, Serialize};
 
-/// Counts, or any weights, in equal bins of one or several inputs.
+/// Counts, or any weights, in equal bins of one or more inputs.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Histogram {
-    /// The inputs that it is over, one or several.
+    /// The names of its inputs, at least one.
     pub inputs: Vec<String>,
-    /// The range that is divided into bins, of each input; empty for what the scene leaves of their
-    /// domains. Beyond it nothing occurs.
+    /// The range of each input that is divided into bins, and beyond which nothing occurs; empty
+    /// for the part of their domains that the scene leaves.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub over: Vec<[f64; 2]>,
-    /// Bins along each input; may be left out for one input.
+    /// The number of bins along each input; it may be left out for a single input.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub bins: Vec<usize>,
-    /// One a bin, the first input varying slowest.
+    /// The count of each bin, the first input varying slowest; finite, not negative, not all zero.
     pub counts: Vec<f64>,
 }
 
 impl Histogram {
-    /// Bins along each input.
+    /// Returns the number of bins along each input.
     pub fn bins(&self) -> Vec<usize> {
         match (self.bins.is_empty(), self.inputs.len()) {
             (true, 1) => vec![self.counts.len()],
@@ -29,7 +29,7 @@ impl Histogram {
         }
     }
 
-    /// What is wrong with it in itself.
+    /// Checks all that can be checked without a dataset.
     pub(super) fn check(&self, scene: &str) -> Result<(), Error> {
         let refuse = |problem: String| {
             let inputs = self.inputs.join(", ");
@@ -64,7 +64,7 @@ impl Histogram {
     }
 }
 
-/// A histogram over some of a dataset's inputs, each with its column and range.
+/// A histogram read over columns, each with its range.
 #[derive(Clone, Debug)]
 pub(super) struct Density {
     axes: Vec<Axis>,
@@ -79,14 +79,15 @@ struct Axis {
 }
 
 impl Density {
-    /// Of a histogram whose inputs are in these columns, each divided over a range.
+    /// Makes the density of a histogram whose inputs are in these columns and divided over these
+    /// ranges.
     pub fn new(histogram: &Histogram, columns: &[usize], over: &[[f64; 2]]) -> Density {
         let axes = columns.iter().zip(over).zip(histogram.bins());
         let axes = axes.map(|((&column, &over), bins)| Axis { column, over, bins });
         Density { axes: axes.collect(), counts: histogram.counts.clone() }
     }
 
-    /// The count of the bin that a row lies in; none beyond them.
+    /// Returns the count of the bin that a row lies in; 0 beyond the bins.
     pub fn of(&self, columns: &[Vec<f32>], row: usize) -> f64 {
         let mut bin = 0;
         for axis in &self.axes {
@@ -105,7 +106,7 @@ impl Axis {
     }
 }
 
-/// Which of so many equal bins over a range a value lies in; the range is closed, as `f32`.
+/// Returns the bin of a value among equal bins over a range, which is closed and rounded to `f32`.
 pub(super) fn bin(value: f32, [low, high]: [f64; 2], bins: usize) -> Option<usize> {
     if !(low as f32..=high as f32).contains(&value) {
         return None;

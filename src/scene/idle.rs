@@ -1,5 +1,5 @@
-//! Operations that never act where a scene's inputs are: a minimum whose second argument is always the
-//! greater, a saturation of what stays between 0 and 1.
+//! Idle operations, which never act on a scene's inputs: a minimum whose second argument is always
+//! the greater, a saturation of a value that stays between 0 and 1.
 
 use crate::dataset::{Dataset, Split};
 use crate::eval::{Evaluator, Samples, Tape};
@@ -9,27 +9,27 @@ use crate::program::{Arg, Program, effective};
 use crate::stability::{Bound, Limits, Property, Rounding, Status, prove};
 use serde::{Deserialize, Serialize};
 
-/// How it is known that something never happens.
+/// The evidence that an operation never acts.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub enum Evidence {
-    /// Wherever the inputs are in their domain.
+    /// A proof for the whole domain of the inputs.
     #[serde(rename = "proved")]
     Proved,
-    /// On every sample of both splits.
+    /// Every sample of both splits.
     #[serde(rename = "sampled")]
     Sampled,
 }
 
-/// An operation that never acts, and the program without it.
+/// An operation that never acts, with the program without it.
 pub(super) struct Idle {
     pub op: Op,
     pub evidence: Evidence,
     pub program: Program,
 }
 
-/// What an operation always is, if a difference stays within a range.
+/// The value that an operation always has if a difference stays within a range.
 struct Case {
-    /// Of the first and the second, or the first alone.
+    /// The first argument, minus the second if there is one.
     difference: (Arg, Option<Arg>),
     within: [f32; 2],
     becomes: Value,
@@ -65,14 +65,14 @@ fn cases(op: Op, args: &[Arg]) -> Vec<Case> {
     }
 }
 
-/// By how much an operation may act and still be said never to: what it does then is rounding, unless
-/// it chooses between two things.
+/// Returns the amount by which an operation may act and still count as idle, since it only rounds
+/// then; 0 for one that chooses between two values. Chosen by hand, unmeasured.
 fn slack(op: Op) -> f32 {
     if matches!(op, Op::Step | Op::Select) { 0.0 } else { 1e-6 }
 }
 
-/// The first operation that never acts on the dataset's samples, if any, and whether that is proved for
-/// the domain of its inputs.
+/// Returns the first operation that never acts on the dataset's samples, if any, and whether that
+/// is proved for the domain of its inputs.
 pub(super) fn first_idle(program: &Program, dataset: &Dataset) -> Option<Idle> {
     let domain: Vec<Interval> =
         dataset.inputs.iter().map(|input| enclose(input.domain[0], input.domain[1])).collect();
@@ -84,7 +84,7 @@ pub(super) fn first_idle(program: &Program, dataset: &Dataset) -> Option<Idle> {
             if !(holds(&dataset.search) && holds(&dataset.validation)) {
                 continue;
             }
-            // A guard against division by zero acts by less than any slack: a proof has none.
+            // A guard against division by zero may act by less than the slack: a proof has none.
             let evidence = match holds_over(&difference, &domain, case.within) {
                 true => Evidence::Proved,
                 false => Evidence::Sampled,
@@ -100,7 +100,7 @@ pub(super) fn first_idle(program: &Program, dataset: &Dataset) -> Option<Idle> {
 }
 
 impl Case {
-    /// The program of the difference alone.
+    /// Returns a program of the difference alone.
     fn difference_of(&self, program: &Program) -> Option<Program> {
         let mut draft = program.clone().into_draft();
         let output = match self.difference {
@@ -112,18 +112,18 @@ impl Case {
     }
 }
 
-/// Whether a program's output stays in a range on all rows of a split.
+/// Returns true if a program's output stays in a range, within `slack`, on all rows of a split.
 fn holds_on(program: &Program, split: &Split, [low, high]: [f32; 2], slack: f32) -> bool {
     let samples = Samples::new(split, program.inputs);
     let values = Evaluator::default().outputs(&Tape::new(program), &samples);
     values[0].iter().all(|value| (low - slack..=high + slack).contains(value))
 }
 
-/// Boxes that a proof may look at.
+/// The most boxes of a proof. Chosen by hand, unmeasured.
 const BOXES: usize = 4096;
 
-/// Whether it is proved, for the interpreter's arithmetic, that a program's output stays in a range
-/// wherever its inputs are in theirs.
+/// Returns true if it is proved, for the interpreter's arithmetic, that a program's output stays in
+/// a range over the whole domain.
 fn holds_over(program: &Program, domain: &[Interval], [low, high]: [f32; 2]) -> bool {
     let bounds = [Bound::AtLeast(low.into()), Bound::AtMost(high.into())];
     let claims = bounds.map(|bound| Property::of(0, bound));
@@ -131,7 +131,7 @@ fn holds_over(program: &Program, domain: &[Interval], [low, high]: [f32; 2]) -> 
     prove(program, domain, &claims, &limits).iter().all(|status| *status == Status::Proved)
 }
 
-/// Whether an output is refuted to be finite that was not before.
+/// Returns true if an output is refuted to be finite after a change but not before.
 fn loses_finiteness(before: &Program, after: &Program, domain: &[Interval]) -> bool {
     let limits = Limits { boxes: BOXES, ..Limits::new(Rounding::Exact) };
     (0..before.outputs.len()).any(|output| {
@@ -143,10 +143,10 @@ fn loses_finiteness(before: &Program, after: &Program, domain: &[Interval]) -> b
     })
 }
 
-/// The program with an instruction's result replaced.
+/// Replaces an instruction's result by a value.
 fn without(program: &Program, at: usize, value: Value) -> Option<Program> {
     let draft = program.rewritten(|new, i, instr| match value {
-        // No argument comes later: up to there, every result keeps its index.
+        // Arguments come earlier, so they keep their indices.
         Value::Arg(arg) if i == at => arg,
         Value::Constant(constant) if i == at => new.constant(constant),
         Value::Arg(_) | Value::Constant(_) => new.push_instr(instr),
@@ -183,15 +183,15 @@ mod tests {
         for (text, left) in [
             ("y = saturate(x)", Some((Proved, "y = x"))),
             ("y = min(x, 2 - x)", Some((Proved, "y = x"))),
-            // One box is not enough: x(1 − x) is at most 1/4.
+            // One box is not enough for the proof: x(1 − x) is at most 1/4.
             ("y = saturate(x*(1 - x) + 0.5)", Some((Proved, "y = x*(1 - x) + 0.5"))),
             ("y = select(x < 3, x*x, 1)", Some((Proved, "y = x^2"))),
             ("y = step(-1, x)", Some((Proved, "y = 1"))),
             ("y = saturate(x + 1)", Some((Proved, "y = 1"))),
-            // Between the samples, at both ends, it does act.
+            // It acts beyond the samples, which do not reach the ends.
             ("y = max(x, 0.001)", Some((Sampled, "y = x"))),
             ("y = max(x, 0.3)", None),
-            // A guard that hardly acts is one all the same.
+            // A guard that hardly acts is still needed.
             ("y = 1/max(x, 0.0000001)", None),
             ("y = sqrt(max(x - 0.0000001, 0))", None),
             ("y = saturate(2*x)", None),

@@ -1,12 +1,13 @@
-//! A scene from what a frame needed: pixels' inputs, logged.
+//! Scenes from a frame's log of its pixels' inputs.
 
 use super::histogram::bin;
 use super::{Error, Histogram, Scene};
 
-/// Inputs that one histogram may hold together by default: with more, most bins of a log are empty.
+/// The most inputs of a joint histogram: with more, most bins of a log are empty. Chosen by hand,
+/// unmeasured.
 const MAX_JOINT: usize = 3;
 
-/// A column of a log: an input's value in each pixel.
+/// A column of a log: an input's value at each pixel.
 #[derive(Clone, Copy, Debug)]
 pub struct Logged<'a> {
     /// The name of the input.
@@ -16,13 +17,14 @@ pub struct Logged<'a> {
 }
 
 impl Scene {
-    /// The scene of logged pixels: inputs that never change are fixed, the others counted in `bins`
-    /// equal bins each, over the range that occurs; together if `joint` and they are few, which
-    /// keeps what one input has to do with another, else each by itself. Each pixel counts by its weight; none is
-    /// one for all. What weighs nothing has not occurred.
+    /// Makes the scene of logged pixels. Inputs that never change are fixed; each other one is
+    /// counted in `bins` equal bins over the range that occurs. If `joint` and there are at most
+    /// three, one histogram holds all of them, which keeps their correlations; otherwise each has
+    /// its own. Each pixel counts by its weight, one if there are no weights; pixels of weight zero
+    /// are ignored.
     ///
     /// # Errors
-    /// No pixel with a weight.
+    /// [`Error::Histogram`] if no pixel has a weight above zero.
     ///
     /// # Panics
     /// If columns or weights differ in length, or `bins` is zero.
@@ -79,7 +81,7 @@ impl Scene {
     }
 }
 
-/// The number that is written as an `f32` is, without the digits of its rounding.
+/// Returns the number with the shortest digits of an `f32`, without those of its rounding.
 fn shortest(value: f32) -> f64 {
     value.to_string().parse().unwrap_or_else(|_| f64::from(value))
 }

@@ -1,9 +1,9 @@
-//! Scenes: what a given use really needs of a dataset.
+//! Scenes: what a use needs of a dataset.
 //!
-//! A [`Scene`] says which values of the inputs occur, and how often; which inputs are fixed; and which
-//! combination of the outputs a shader really uses. [`Scene::over`] reads it over a dataset's
-//! columns, refusing what cannot be meant; the [`View`] that comes of it is a smaller dataset, and
-//! takes formulas over the whole dataset's columns to formulas over the view's.
+//! A [`Scene`] says which values of the inputs occur, and how often; which inputs are fixed; and
+//! which combination of the outputs a shader uses. [`Scene::over`] checks it against a dataset's
+//! columns and returns a [`View`], which gives the smaller dataset, and rewrites formulas over the
+//! whole dataset's columns as formulas over the view's.
 //!
 //! A scene is a `.ron` file:
 //!
@@ -16,8 +16,10 @@
 //!     outputs: {"specular": "f0*scale + bias"},
 //! )"#)?;
 //! # let split = Split::on_grid(&[vec![0.0, 0.5, 1.0]], |x| [0.5 + 0.5*x[0], 0.5 - 0.5*x[0]]);
-//! # let (inputs, outputs) = (vec![Column::new("roughness", [0.0, 1.0])], [("scale", "1"), ("bias", "1")]);
-//! # let dataset = Dataset::of_splits("dfg", Origin::default(), inputs, outputs, [split.clone(), split]).unwrap();
+//! # let inputs = vec![Column::new("roughness", [0.0, 1.0])];
+//! # let (outputs, splits) = ([("scale", "1"), ("bias", "1")], [split.clone(), split]);
+//! # let dataset =
+//! #     Dataset::of_splits("dfg", Origin::default(), inputs, outputs, splits).unwrap();
 //! let view = scene.over(&dataset)?.dataset()?;
 //! assert_eq!(view.outputs[0].name, "specular");
 //! assert_eq!(view.search.columns, [[0.5], [0.28]]);
@@ -45,7 +47,8 @@ pub use quantisation::Quantisation;
 pub use specialize::{Change, Specialization, Step, specialize};
 pub use view::View;
 
-use crate::dataset::{LARGEST_TEXT, check_name, check_text, read_text};
+use crate::dataset::{check_name, check_text};
+use crate::file::read_text;
 use crate::grammar::{FileError, file};
 use crate::program::shortest;
 use crate::suggest::did_you_mean;
@@ -55,59 +58,59 @@ use std::path::Path;
 
 const KIND: &str = "scene";
 
-/// What a use needs of a dataset; every part may be left out.
+/// The needs of a use of a dataset; every part may be left out.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Scene {
-    /// That of its file, unless the file gives another.
+    /// The scene's name: that of its file, unless the file gives another.
     #[serde(default)]
     pub name: String,
-    /// A sentence about the use; may be empty.
+    /// A sentence about the use; it may be empty.
     #[serde(default, skip_serializing_if = "String::is_empty")]
     pub description: String,
-    /// Inputs, and the least and greatest value of each that occurs.
+    /// The least and greatest value that occurs, by input.
     #[serde(default, with = "entries", skip_serializing_if = "Vec::is_empty")]
     pub ranges: Vec<(String, [f64; 2])>,
-    /// Inputs that have one value, which are then no inputs any more; and names of values that
-    /// `outputs` uses.
+    /// The values of inputs that never vary, and are no inputs of the view; and of further names
+    /// that `outputs` uses.
     #[serde(default, with = "entries", skip_serializing_if = "Vec::is_empty")]
     pub fixed: Vec<(String, f64)>,
-    /// How often values of inputs occur; an input stands in one of them at most.
+    /// The frequencies of inputs' values; an input occurs in at most one histogram.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub histograms: Vec<Histogram>,
-    /// The outputs to regress on, each an expression over outputs, inputs and fixed values; where there
-    /// are none, the dataset's.
+    /// The outputs of the view, each an expression over the dataset's outputs, inputs and fixed
+    /// values; if there are none, the dataset's own.
     #[serde(default, with = "entries", skip_serializing_if = "Vec::is_empty")]
     pub outputs: Vec<(String, String)>,
-    /// What the target's steps hide of errors.
+    /// The target's steps, which hide small errors.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub quantisation: Option<Quantisation>,
-    /// What may be spent, and what must be reached, on each kind of machine.
+    /// The limits of cost and error on each kind of machine.
     #[serde(default, with = "entries", skip_serializing_if = "Vec::is_empty")]
     pub tiers: Vec<(String, Tier)>,
 }
 
-/// What a formula may cost, and how far it may be off.
+/// The limits of a formula's cost and error, at least one of them, finite and not negative.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct Tier {
-    /// Cycles.
+    /// The most cycles.
     pub max_cost: Option<f64>,
-    /// In the measure that is made small.
+    /// The largest error, in the search's measure.
     pub max_error: Option<f64>,
 }
 
 impl Scene {
-    /// A scene by the path of its file, or by the name of one in the folder `scenes` beside a
-    /// dataset's file.
+    /// Reads a scene by the path of its file, or by the name of one in the folder `scenes` beside
+    /// the file of a dataset.
     ///
     /// # Errors
-    /// No such file, or those of [`Scene::parse`].
+    /// A missing or unreadable file; those of [`Scene::parse`].
     pub fn find(name_or_path: &str, dataset: &Path) -> Result<Scene, Error> {
         let given = Path::new(name_or_path);
         let folder = dataset.parent().unwrap_or(Path::new("")).join("scenes");
         let named = folder.join(name_or_path).with_extension("ron");
-        // A folder here may be called as a scene is.
+        // A folder may have the scene's name.
         let exists = if named.is_file() { given.is_file() } else { given.exists() };
         let is_name = given.extension().is_none() && !exists;
         let path = if is_name { named.as_path() } else { given };
@@ -120,7 +123,7 @@ impl Scene {
                 known: known.join(", "),
             });
         }
-        let text = read_text(path, LARGEST_TEXT).map_err(|reason| FileError::Unreadable {
+        let text = read_text(path).map_err(|reason| FileError::Unreadable {
             kind: KIND,
             path: path.display().to_string(),
             reason,
@@ -129,10 +132,10 @@ impl Scene {
         Scene::read(&path.display().to_string(), &stem, &text)
     }
 
-    /// A scene from the text of a `.ron` file; `name` is its name unless the text gives another.
+    /// Parses the text of a `.ron` file; `name` is the scene's name unless the text gives another.
     ///
     /// # Errors
-    /// Text that is no scene. What it says is looked at by [`Scene::over`].
+    /// Text that is no scene; those of [`Scene::check`]. [`Scene::over`] checks the rest.
     pub fn parse(name: &str, text: &str) -> Result<Scene, Error> {
         Scene::read(name, name, text)
     }
@@ -146,17 +149,18 @@ impl Scene {
         Ok(scene)
     }
 
-    /// What can be checked of it without a dataset.
+    /// Checks all that can be checked without a dataset.
     ///
     /// # Errors
-    /// A name that is none; a number that is none; a tier without limits, or with some that cannot be meant.
+    /// An unusable name; a number that is not finite as `f32`; a tier without limits, or with a
+    /// negative or infinite one.
     pub fn check(&self) -> Result<(), Error> {
         self.check_names()?;
         self.check_numbers()?;
         self.check_tiers()
     }
 
-    /// What the scene does to a dataset, in a line.
+    /// Returns a line that says what the scene does to a dataset.
     pub fn summary(&self) -> String {
         let mut parts = Vec::new();
         parts.extend(
@@ -176,7 +180,7 @@ impl Scene {
         parts.join("; ")
     }
 
-    /// The scene as the text of a `.ron` file.
+    /// Returns the text of a `.ron` file of the scene.
     pub fn to_ron(&self) -> String {
         let mut text = String::new();
         let pretty = ron::ser::PrettyConfig::default().depth_limit(2);
@@ -186,13 +190,14 @@ impl Scene {
         text + "\n"
     }
 
-    /// The most that a tier may spend, if each says what.
+    /// Returns the largest cost that a tier allows; none unless every tier has one.
     pub fn max_cost(&self) -> Option<f64> {
         let costs: Option<Vec<f64>> = self.tiers.iter().map(|(_, tier)| tier.max_cost).collect();
         costs?.into_iter().reduce(f64::max)
     }
 
-    /// It is part of the name of the dataset that it leaves, and so are tiers of tables.
+    /// Checks the name, which becomes part of the view's name, and those of tiers, which appear in
+    /// tables.
     fn check_names(&self) -> Result<(), Error> {
         let named = |name: &str, fault| Error::Name { name: name.to_owned(), fault };
         check_name(&self.name).map_err(|fault| named(&self.name, fault))?;

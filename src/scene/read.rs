@@ -1,4 +1,4 @@
-//! What a scene says, read over a dataset's columns.
+//! Reading a scene over a dataset's columns.
 
 use super::histogram::Density;
 use super::view::Input;
@@ -7,16 +7,17 @@ use crate::dataset::{Column, Dataset};
 use crate::program::{Arg, Names, parse};
 use crate::suggest::did_you_mean;
 
-/// How far beyond a dataset's domain a range may reach, as a share of it.
+/// The share of a domain by which a range or value may lie beyond it. Chosen by hand, unmeasured.
 const SLACK: f64 = 1e-6;
 
 impl Scene {
     /// Reads the scene over a dataset's columns.
     ///
     /// # Errors
-    /// A name that the dataset lacks, or that two parts name; a range that is empty or reaches
-    /// beyond the dataset's domain, and a fixed value outside it; a histogram without counts, with
-    /// others than its bins need, or with nothing but zeros; an expression that is none.
+    /// [`Error`]: a name that the dataset lacks, or that two parts contain; a range that is empty
+    /// or reaches beyond the dataset's domain, or a fixed value outside it; no open input; a
+    /// histogram whose counts are missing, all zero, or not one a bin; an invalid expression, tone
+    /// map or number of bits.
     pub fn over<'a>(&'a self, whole: &'a Dataset) -> Result<View<'a>, Error> {
         let mut view = View {
             scene: self,
@@ -75,7 +76,7 @@ impl<'a> View<'a> {
         Ok(())
     }
 
-    /// A range of an input that the dataset covers.
+    /// Checks that the dataset covers a range of an input, and clips it to the domain.
     fn within(&self, what: &'static str, index: usize, range: [f64; 2]) -> Result<[f64; 2], Error> {
         let Column { name, domain, .. } = &self.whole.inputs[index];
         let (scene, input) = (self.scene.name.clone(), name.clone());
@@ -113,7 +114,7 @@ impl<'a> View<'a> {
         Ok(())
     }
 
-    /// What a histogram's bins divide, by input; beyond it nothing occurs.
+    /// Returns the ranges that a histogram's bins divide, by input, and narrows the inputs to them.
     fn narrow_to(
         &mut self,
         histogram: &Histogram,
@@ -150,7 +151,7 @@ impl<'a> View<'a> {
         let columns = self.whole.inputs.iter().chain(&self.whole.outputs);
         let mut names: Vec<String> = columns.map(|column| column.name.clone()).collect();
         names.extend(self.values.iter().map(|(name, _)| (*name).to_owned()));
-        // An output may keep a column's name, which no statement may assign.
+        // An output may have a column's name, but no statement may assign to a column.
         let mut target = "value".to_owned();
         while names.contains(&target) {
             target.push('_');
@@ -172,7 +173,7 @@ impl<'a> View<'a> {
         if self.outputs.is_empty() {
             for column in &self.whole.outputs {
                 let program = parse(&format!("{target} = {}", column.name), &over);
-                // With more fixed values than a program can read it is none.
+                // It fails if there are more fixed values than a program can read.
                 let program = program.map_err(|error| Error::Expression {
                     scene: scene.clone(),
                     output: column.name.clone(),
@@ -184,7 +185,7 @@ impl<'a> View<'a> {
         Ok(())
     }
 
-    /// A value that nothing uses is a misspelt input.
+    /// Checks that every fixed value is used: otherwise it is probably a misspelt input.
     fn check_values_are_used(&self) -> Result<(), Error> {
         let columns = self.whole.inputs.len() + self.whole.outputs.len();
         for (place, (name, _)) in self.values.iter().enumerate() {
@@ -209,7 +210,7 @@ impl<'a> View<'a> {
         self.whole.inputs.iter().map(|column| column.name.as_str())
     }
 
-    /// What an unknown name may have been meant to be, and what there is.
+    /// Returns the name probably meant by an unknown one, and the known names.
     fn known(&self, name: &str) -> String {
         let inputs = self.input_names().collect::<Vec<_>>().join(", ");
         format!("{} (inputs: {inputs})", did_you_mean(name, self.input_names()))

@@ -1,4 +1,4 @@
-//! Programs with something taken out of them.
+//! Removals: cheaper programs with an operation or argument taken out.
 
 use crate::cost::{CostScratch, Profile};
 use crate::eval::{Evaluator, Samples, Tape};
@@ -7,7 +7,7 @@ use crate::program::{Arg, Constants, Draft, Program, structural_hash};
 use crate::simplify::Simplifier;
 use std::collections::HashSet;
 
-/// A cheaper draft, its constants not fitted yet.
+/// A cheaper draft whose constants are not fitted yet.
 #[derive(Clone, Debug)]
 pub(super) struct Removal {
     pub draft: Draft,
@@ -15,14 +15,15 @@ pub(super) struct Removal {
     pub what: String,
 }
 
-/// The mean of a value, and its regression line on another.
+/// The values of a draft's inputs and results on samples.
 struct Statistics {
     results: Vec<Vec<f32>>,
     inputs: Vec<Vec<f32>>,
 }
 
-/// Every cheaper draft that comes of one removal: a result replaced by one of its arguments or by its
-/// mean, an argument by its mean, an expensive operation by a straight line. Each structure once.
+/// Returns every cheaper draft that one removal gives, each structure once: a result is replaced by
+/// one of its arguments or by its mean, an argument by its mean, an expensive operation by a
+/// straight line or a simpler operation.
 pub(super) fn removals(draft: &Draft, samples: &Samples, profile: &Profile) -> Vec<Removal> {
     let Some(statistics) = Statistics::of(draft, samples) else { return Vec::new() };
     let (mut scratch, mut hashes) = (CostScratch::default(), Vec::new());
@@ -104,7 +105,7 @@ fn at_instruction(
     found
 }
 
-/// What it is to replace an operation by one of its arguments.
+/// Returns the words for replacing an operation by one of its arguments.
 fn dropped(op: Op) -> String {
     match op {
         Op::Add | Op::Sub => "a term of a sum dropped".to_owned(),
@@ -114,10 +115,10 @@ fn dropped(op: Op) -> String {
     }
 }
 
-/// Cycles above which an operation is expensive.
+/// The cycles above which an operation is expensive. Chosen by hand, unmeasured.
 const DEAR: f64 = 1.5;
 
-/// The draft with one instruction made anew: from its arguments, the result that takes its place.
+/// Remakes one instruction: `make` returns the replacement of its result, given its arguments.
 fn rebuilt(draft: &Draft, at: usize, make: &dyn Fn(&mut Draft, &[Arg]) -> Arg) -> Draft {
     draft.rewritten(|new, i, instr| match i == at {
         true => make(new, instr.args()),
@@ -125,7 +126,7 @@ fn rebuilt(draft: &Draft, at: usize, make: &dyn Fn(&mut Draft, &[Arg]) -> Arg) -
     })
 }
 
-/// The draft with a constant of its own wherever one is read, so that they can be fitted apart.
+/// Gives every use of a constant a constant of its own, so that they are fitted separately.
 pub(super) fn apart(draft: &Draft) -> Draft {
     let mut new = draft.clone();
     new.unshare_constants();
@@ -161,7 +162,7 @@ impl Statistics {
     }
 }
 
-/// Slope and intercept of the least-squares line of `ys` on `xs`; nothing where they are not finite.
+/// Returns slope and intercept of the least-squares line of `ys` on `xs`; none if not finite.
 fn line(ys: &[f32], xs: &[f32]) -> Option<[f32; 2]> {
     let n = ys.len() as f64;
     let mean = |values: &[f32]| values.iter().map(|&v| f64::from(v)).sum::<f64>() / n;

@@ -1,4 +1,4 @@
-//! Formulas without what a scene makes superfluous.
+//! Specialisation: formulas without the parts that a scene makes superfluous.
 
 use super::combine::folded;
 use super::idle::{Evidence, first_idle};
@@ -16,18 +16,18 @@ use rayon::prelude::*;
 use std::cmp::Ordering;
 use std::collections::HashSet;
 
-/// What was done to a formula.
+/// A change of a formula.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Change {
-    /// Nothing: fixed inputs are constants, outputs are combined.
+    /// None: the formula as given, with fixed inputs as constants and outputs combined.
     Given,
-    /// Constants folded, and what algebra does to what is left.
+    /// Constants folded, and the rest simplified.
     Folded,
-    /// An operation that never acts is gone.
+    /// An operation that never acts dropped.
     Idle(Op, Evidence),
     /// Constants fitted to the scene.
     Refitted,
-    /// A term is gone, the constants fitted again.
+    /// A removal, in words, and the constants fitted again.
     Removed(String),
 }
 
@@ -38,49 +38,54 @@ pub struct Step {
     pub change: Change,
     /// The formula after it.
     pub program: Program,
-    /// Its cycles.
+    /// The formula's cycles.
     pub cost: f64,
 }
 
-/// What became of a formula.
+/// The results of specialising a formula.
 #[derive(Clone, Debug, Default)]
 pub struct Specialization {
-    /// From the formula as it was given to what is left in the end.
+    /// The steps from the given formula to the last one within the limit.
     pub steps: Vec<Step>,
-    /// Formulas beside the way that were better at their cost.
+    /// The fitted formulas within the limit that none dominates, on the way or beside it.
     pub others: Vec<Program>,
 }
 
-/// A first look at a removal, on some samples; and the fit of what is promising, on all.
+/// The ends of a removal's first fit, on some samples; of a promising one's second, on all; and of
+/// the final fits. Chosen by hand, unmeasured.
 const FIRST_LOOK: Stop = Stop { max_steps: 5, min_gain: 1e-3 };
 const SECOND_LOOK: Stop = Stop { max_steps: 40, min_gain: 1e-4 };
 const TO_CONVERGENCE: Stop = Stop { max_steps: 200, min_gain: 1e-7 };
 
+/// The most samples of a first look. Chosen by hand, unmeasured.
 const SUBSET: usize = 512;
-/// Removals that are looked at twice.
+/// The most removals that are looked at twice. Chosen by hand, unmeasured.
 const PROMISING: usize = 24;
 
-/// Cycles that a removal gets credit for. The last step, to a constant, would look cheap too early.
+/// The most saved cycles credited to a removal: else the last step, to a constant, would look good
+/// too early. Chosen by hand, unmeasured.
 const MAX_CREDITED: f64 = 4.0;
 
-/// Formulas beside the way whose removals are looked at, at most.
+/// The most formulas beside the way whose removals are tried. Chosen by hand, unmeasured.
 const EXPANSIONS: usize = 200;
 
-/// As in a search's fronts.
+/// The share by which shorter constants may raise the sum of squares, as in a search's fronts.
 const SHORTENING_ALLOWANCE: f64 = 0.004;
 
-/// Root mean square below which one error is as good as another.
+/// The root mean square below which all errors are equally good. Chosen by hand, unmeasured.
 const NEGLIGIBLE: f64 = 1e-7;
 
-/// Specialises a formula over the whole dataset's inputs, for the outputs of it that are named, to
-/// what a view leaves (`dataset`, perhaps with fewer outputs). First what costs no accuracy: constants are
-/// folded, operations that never act dropped. Then constants are fitted; then terms are removed one
-/// after the other, each time the one that raises the error least for the cycles it saves, the
-/// constants fitted again, until nothing is left or the error (root mean square, in `measure`)
-/// exceeds `limit`; and from the best formulas beside that way in the same manner. Nothing where the formula lacks an output that is needed.
+/// Specialises a formula over the whole dataset's inputs to a view. `defined` names the outputs of
+/// the whole dataset that it computes; `dataset` is the view's, perhaps with fewer outputs.
+///
+/// First constants are folded and operations that never act dropped, which costs no accuracy. Then
+/// constants are fitted, and terms removed one after the other: each time the one that raises the
+/// error least for the cycles it saves, with the constants fitted again, until nothing is left or
+/// the error (root mean square, in `measure`) exceeds `limit`. The best formulas beside that way
+/// are treated in the same manner. None if the formula lacks an output that is needed.
 ///
 /// # Panics
-/// As [`View::program`], or if `dataset` has other inputs than the view.
+/// As [`View::program`], or if the inputs of `dataset` are not the view's.
 pub fn specialize(
     view: &View,
     formula: &Program,
@@ -113,14 +118,14 @@ struct Work<'a> {
     profile: &'a Profile,
     all: Samples,
     subset: Samples,
-    /// Of errors over all outputs, by which losses are divided.
+    /// The unit of errors over all outputs, in which losses count.
     unit: f64,
     steps: Vec<Step>,
-    /// How many of the steps' constants are the formula's own.
+    /// The number of first steps whose constants are the given formula's.
     unfitted: usize,
-    /// Fitted, with cost and loss.
+    /// The fitted drafts, each with its cost and loss.
     seen: Vec<(f64, f64, Draft)>,
-    /// Structures whose removals were looked at.
+    /// The hashes of structures whose removals were tried.
     expanded: HashSet<u64>,
 }
 
@@ -158,7 +163,7 @@ impl<'a> Work<'a> {
         }
     }
 
-    /// What makes losses comparable.
+    /// Returns the loss below which all are equally good.
     fn negligible(&self) -> f64 {
         NEGLIGIBLE.powi(2) * self.all.total_weight()
     }
@@ -183,8 +188,7 @@ impl<'a> Work<'a> {
         self.seen.retain(|(_, loss, _)| *loss <= most);
     }
 
-    /// Looks at the removals of what lies beside the way, as long as that is not dominated, the
-    /// costliest first.
+    /// Tries the removals of drafts beside the way that nothing dominates, the costliest first.
     fn explore(&mut self) {
         for _ in 0..EXPANSIONS {
             self.keep_undominated();
@@ -208,7 +212,8 @@ impl<'a> Work<'a> {
         self.steps.push(Step { change, program, cost });
     }
 
-    /// The removal that raises the error least for the cycles it saves, fitted.
+    /// Returns the removal that raises the error least for the cycles it saves, fitted, and its
+    /// loss.
     fn best_removal(&mut self, draft: &Draft, loss: f64) -> Option<(Removal, f64)> {
         self.expanded.insert(hash(draft));
         let cost = self.cost(draft);
@@ -250,7 +255,7 @@ impl<'a> Work<'a> {
         tried.into_iter().next()
     }
 
-    /// Constants shortened; of what lies beside the way, only what nothing dominates.
+    /// Shortens constants, and keeps only drafts beside the way that nothing dominates.
     fn finished(mut self) -> Specialization {
         self.keep_undominated();
         let all = &self.all;

@@ -1,4 +1,4 @@
-//! A scene over a dataset's columns.
+//! Views: scenes over a dataset's columns.
 
 use super::histogram::Density;
 use super::quantisation::Steps;
@@ -7,35 +7,35 @@ use crate::dataset::{Column, Dataset, Origin, Split, claims_over};
 use crate::eval::{Arithmetic, Double};
 use crate::program::Program;
 
-/// A scene read over a dataset's columns.
+/// A scene read over a dataset's columns ([`Scene::over`]).
 #[derive(Clone, Debug)]
 pub struct View<'a> {
     pub(super) scene: &'a Scene,
     pub(super) whole: &'a Dataset,
-    /// By input of the dataset.
+    /// One entry per input of the dataset.
     pub(super) inputs: Vec<Input>,
-    /// Values of `fixed` that are no inputs, by name.
+    /// The values of `fixed` that are no inputs, by name.
     pub(super) values: Vec<(&'a str, f64)>,
     pub(super) densities: Vec<Density>,
-    /// Each over the dataset's inputs, its outputs, then `values`.
+    /// The outputs, each over the dataset's inputs, its outputs, then `values`.
     pub(super) outputs: Vec<(String, Program)>,
     pub(super) steps: Option<Steps>,
 }
 
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Input {
-    /// Within a range.
+    /// An input of the view, within a range.
     Open([f64; 2]),
     Fixed(f64),
 }
 
 impl<'a> View<'a> {
-    /// The names of the inputs that are left.
+    /// Returns the names of the inputs that are left.
     pub fn inputs(&self) -> Vec<String> {
         self.open_inputs().map(|(column, _)| column.name.clone()).collect()
     }
 
-    /// The inputs that are left, with what occurs of them.
+    /// Returns the inputs that are left, each with its range.
     pub(super) fn open_inputs(&self) -> impl Iterator<Item = (&'a Column, [f64; 2])> {
         self.whole.inputs.iter().zip(&self.inputs).filter_map(|(column, input)| match input {
             Input::Open(range) => Some((column, *range)),
@@ -43,12 +43,13 @@ impl<'a> View<'a> {
         })
     }
 
-    /// What the scene leaves of the dataset: open inputs, combined outputs, and the rows that occur,
-    /// each weighing what it did times the histograms' counts. Its name is the dataset's and
-    /// the scene's, its origin says what the scene did.
+    /// Makes the dataset that the scene leaves: open inputs, combined outputs, and the rows that
+    /// occur, their weights multiplied by the histograms' counts. Its name joins those of the
+    /// dataset and the scene; its origin says what the scene did.
     ///
     /// # Errors
-    /// A split of which no row is left; a combined output that is not finite.
+    /// [`Error`]: a split of which no row is left, or without rows at a fixed value; a combined
+    /// output that is not finite; a tone map without a slope.
     pub fn dataset(&self) -> Result<Dataset, Error> {
         let search = self.split("search", &self.whole.search)?;
         let validation = self.split("validation", &self.whole.validation)?;
@@ -76,7 +77,7 @@ impl<'a> View<'a> {
 
     fn split(&self, which: &'static str, split: &Split) -> Result<Split, Error> {
         let mut taken = split.clone();
-        // From the last, so that columns before it keep their places.
+        // From the last, so that earlier columns keep their places.
         for index in (0..self.inputs.len()).rev() {
             let Input::Fixed(value) = self.inputs[index] else { continue };
             let Column { name, domain, .. } = &self.whole.inputs[index];
@@ -93,7 +94,8 @@ impl<'a> View<'a> {
         self.combine(which, self.occurring(which, &taken)?)
     }
 
-    /// The rows within the ranges that the histograms give a weight, fixed inputs being left out.
+    /// Keeps the rows within the ranges that have a weight by the histograms. Fixed inputs are left
+    /// out already.
     fn occurring(&self, which: &'static str, split: &Split) -> Result<Split, Error> {
         let ranges: Vec<_> =
             self.open_inputs().map(|(_, [low, high])| low as f32..=high as f32).collect();
@@ -123,7 +125,7 @@ impl<'a> View<'a> {
         Ok(taken)
     }
 
-    /// Replaces the outputs by what the scene makes of them.
+    /// Replaces the outputs by the scene's combinations.
     fn combine(&self, which: &'static str, split: Split) -> Result<Split, Error> {
         let open = self.open_inputs().count();
         let mut columns = split.columns[..open].to_vec();
@@ -162,7 +164,7 @@ impl<'a> View<'a> {
         Ok(Split { columns, dead_zone, standard_errors, ..split })
     }
 
-    /// The standard error of an expression of outputs that err independently, to first order.
+    /// Returns the standard error of an expression to first order, if outputs err independently.
     fn standard_error(
         &self,
         split: &Split,
@@ -203,7 +205,8 @@ impl<'a> View<'a> {
         values.iter().enumerate().map(dead_zone).collect()
     }
 
-    /// What the outputs' expressions read on a row of a split whose fixed inputs are left out.
+    /// Writes the values that the outputs' expressions read on a row of a split whose fixed inputs
+    /// are left out.
     fn row_into(&self, split: &Split, row: usize, values: &mut Vec<f64>) {
         values.clear();
         let mut columns = split.columns.iter().map(|column| f64::from(column[row]));
@@ -218,12 +221,12 @@ impl<'a> View<'a> {
     }
 }
 
-/// Letters, digits and `_` of a name.
+/// Replaces all but ASCII letters and digits of a name by `_`.
 fn identifier(name: &str) -> String {
     name.chars().map(|c| if c.is_ascii_alphanumeric() { c } else { '_' }).collect()
 }
 
-/// Some rows of a split, as no grid.
+/// Returns some rows of a split, without its grid and dead zones.
 pub(super) fn gather(split: &Split, rows: &[usize]) -> Split {
     let pick = |values: &Vec<f32>| rows.iter().map(|&row| values[row]).collect::<Vec<f32>>();
     Split {
@@ -234,7 +237,7 @@ pub(super) fn gather(split: &Split, rows: &[usize]) -> Split {
     }
 }
 
-/// The grid that some rows of a grid, in order, still are; empty where they are none.
+/// Returns the grid that some rows of a grid, in order, still form; empty if they form none.
 fn remaining_grid(split: &Split, rows: &[usize]) -> Vec<usize> {
     let mut stride = split.rows();
     let mut remaining = Vec::new();

@@ -1,10 +1,10 @@
-//! The shortest programs, all of them: the front at the lowest costs is then not a matter of luck.
+//! The enumeration of the shortest programs, so that the front at the lowest costs is not luck.
 //!
-//! From every program without instructions, an instruction is inserted at every edge in every way that
-//! the grammar has, again and again, until nothing new of the cost comes about. Programs that are alike
-//! but for their constants are one; its constants are fitted from several starts. So the front is
-//! absolute up to local minima of the fits, and up to what simplification makes unreachable by single
-//! insertions.
+//! It starts from every program without instructions and inserts an instruction at every edge in
+//! every way that the grammar has, until no new program within the cost appears. Programs that
+//! differ only in constants are one structure, whose constants are fitted from several starts. The
+//! front is therefore exact except for local minima of the fits, and for programs that single
+//! insertions cannot reach because of simplification.
 
 use super::polish::reads_only_constants;
 use super::vary::{insertion_count, insertions, random_constant};
@@ -23,38 +23,41 @@ use serde::{Deserialize, Serialize};
 use std::cmp::Ordering;
 use std::collections::HashSet;
 
-/// Fits of each structure, from different constants. By hand.
+/// The number of fits of each structure, from different constants. By hand.
 const STARTS: u64 = 4;
 
+/// The end of a fit on the subset, and on all samples. Chosen by hand, unmeasured.
 const ON_SUBSET: Stop = Stop { max_steps: 20, min_gain: 1e-3 };
 const ON_ALL: Stop = Stop { max_steps: 40, min_gain: 1e-4 };
 
-/// In mean square, how near the best so far a structure must come on the subset. By hand.
+/// The largest ratio of a structure's mean square on the subset to the least one at no more than
+/// its cost. By hand.
 const NEAR: f64 = 1.5;
 
-/// All programs of at most some cycles.
+/// The record that all programs up to a cost were enumerated.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Enumeration {
-    /// Cycles.
+    /// The largest cost, in cycles.
     pub cost: f64,
-    /// Programs that differ in more than constants.
+    /// The number of programs that differ in more than constants.
     pub structures: usize,
 }
 
 impl Enumeration {
-    /// The cost up to which `lgp search` enumerates unasked, if the structures are no more than this. By hand.
+    /// The cost up to which `lgp search` enumerates by default, and the most structures for which
+    /// it does. By hand.
     pub const USUAL: (f64, usize) = (1.0, 4000);
 }
 
 impl Search {
-    /// Takes in all programs of at most `cost` cycles, as far as the budget goes, fitted; nothing where
-    /// they differ in more than `most` structures.
+    /// Fits all programs of at most `cost` cycles, within the cost budget, and offers the best to
+    /// the archive and the islands; does nothing if they have more than `most` structures.
     pub fn enumerate(&mut self, cost: f64, most: usize) {
         self.enumerate_until(cost, most, &Deadline::NEVER);
     }
 
-    /// [`Search::enumerate`], cut at a deadline: what was fitted by then is kept, and counts as any start, not
-    /// as all programs.
+    /// As [`Search::enumerate`], but stops at a deadline: what was fitted by then is kept, but does
+    /// not count as an enumeration.
     pub fn enumerate_until(&mut self, cost: f64, most: usize, deadline: &Deadline) {
         let cost = cost.min(self.problem.goal.max_cost);
         let Some(structures) = structures(&self.problem, cost, most, deadline) else { return };
@@ -70,13 +73,14 @@ impl Search {
             is_whole.then_some(Enumeration { cost, structures: structures.len() });
     }
 
-    /// What was enumerated before the first generation.
+    /// Returns the record of a complete enumeration, if there was one.
     pub fn enumeration(&self) -> Option<Enumeration> {
         self.state.enumeration
     }
 }
 
-/// The structures that come near the least error at their cost, fitted on all samples. Drafts are children.
+/// Returns the structures, as children, that come near the least error at their cost, fitted on all
+/// samples.
 fn best_of(
     structures: &[Draft],
     problem: &Problem,
@@ -111,14 +115,15 @@ fn best_of(
     near.into_par_iter().map_init(new_fitter, finish).flatten().collect()
 }
 
-/// Drafts that are grown together.
+/// The number of drafts that are grown together. Chosen by hand, unmeasured.
 const PARENTS: usize = 1024;
 
-/// Children that are looked at, at most, for each structure that may be found: with many inputs nearly all
-/// are too expensive. By hand: forty inputs are given up in time.
+/// The most children tried for each structure that may be found: with many inputs nearly all are
+/// too expensive. By hand: with forty inputs the enumeration gives up in time.
 const CHILDREN: usize = 600;
 
-/// Every structure, or nothing where there are more than `most`, or no time to find out.
+/// Returns every structure; none if there are more than `most`, too many children to try, or too
+/// little time.
 fn structures(
     problem: &Problem,
     cost: f64,
@@ -132,7 +137,7 @@ fn structures(
     latest.retain(|draft| known.insert(hash(draft)));
     while !latest.is_empty() {
         let mut next = Vec::new();
-        // Of many a parent the children are known already: they are not kept for long.
+        // Most children are known already: in pieces, they do not take up memory for long.
         for parents in latest.chunks(PARENTS) {
             let count: usize =
                 parents.iter().map(|draft| insertion_count(draft, &problem.grammar)).sum();
@@ -161,7 +166,8 @@ fn hash(draft: &Draft) -> u64 {
     structural_hash(draft, Constants::Ignored, &mut Vec::new())
 }
 
-/// Every choice of an input or a constant for each output; nothing where there are more than `most`.
+/// Returns every choice of an input or a constant for each output; none if there are more than
+/// `most`.
 fn leaves(inputs: usize, outputs: usize, most: usize) -> Option<Vec<Draft>> {
     let count = (inputs + 1).checked_pow(outputs as u32);
     if count.is_none_or(|count| count > most) {
@@ -186,7 +192,8 @@ fn leaves(inputs: usize, outputs: usize, most: usize) -> Option<Vec<Draft>> {
     Some(drafts)
 }
 
-/// What one more instruction makes of a draft, each structure once.
+/// Returns the drafts that one more instruction makes of a draft, with their hashes, each structure
+/// once.
 fn grown(draft: &Draft, problem: &Problem, cost: f64) -> Vec<(u64, Draft)> {
     let (mut simplifier, mut scratch) = (Simplifier::default(), CostScratch::default());
     let mut simple = Draft::default();
@@ -194,7 +201,7 @@ fn grown(draft: &Draft, problem: &Problem, cost: f64) -> Vec<(u64, Draft)> {
     let mut grown = Vec::new();
     insertions(draft, &problem.grammar, &mut |child| {
         simplifier.simplify(child, &mut simple);
-        // An infinite constant is free to a compiler: there would be no end of formulas with one.
+        // An infinite constant is free to a compiler, so formulas with one would never end.
         if reads_only_constants(&simple) {
             return;
         }
@@ -208,7 +215,8 @@ fn grown(draft: &Draft, problem: &Problem, cost: f64) -> Vec<(u64, Draft)> {
     grown
 }
 
-/// A structure with the best constants of several starts, on the subset.
+/// Fits a structure on the subset from several starts and returns the best; none if the structure
+/// is not as required or never finite.
 fn fitted(fitter: &mut Fitter, draft: &Draft, problem: &Problem, race: &Samples) -> Option<Member> {
     if !problem.structure_ok(&problem.formula(draft)) {
         return None;
@@ -284,7 +292,7 @@ mod tests {
         assert_eq!(search.enumeration().map(|e| e.structures), Some(all.len()));
     }
 
-    /// Two outputs, with a difference of equal values that may become a divisor: still few.
+    /// With two outputs, a difference of equal values may become a divisor.
     #[test]
     fn infinite_constants_make_no_structures() {
         let mut data = line();

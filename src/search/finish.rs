@@ -1,5 +1,5 @@
-//! What follows a search: its formulas polished and judged, the most valuable first, as long as there is
-//! time.
+//! The end of a search: its formulas are polished and judged, the most valuable first, while there
+//! is time.
 
 use super::polish::{as_found, polish, shortlist, with_short_laws};
 use super::rounding::beyond_rounding;
@@ -12,20 +12,20 @@ use rayon::prelude::*;
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::time::{Duration, Instant};
 
-/// How long work may take, and who hears of it.
+/// The limit of a piece of work, and the listener to its progress.
 pub struct Work<'a> {
-    /// When it ends.
+    /// The end of the work.
     pub deadline: Deadline,
-    /// Told what share is done.
+    /// A function that is called with the share done, from 0 to 1.
     pub progress: &'a (dyn Fn(f64) + Sync),
 }
 
 impl Work<'_> {
-    /// To the end, and nobody hears of it.
+    /// Work without a limit or a listener.
     pub const TO_THE_END: Work<'static> = Work { deadline: Deadline::NEVER, progress: &|_| {} };
 
-    /// Does something for each of `order`, which are places in a list, in parallel, those first that come
-    /// first. The results are in the list's order.
+    /// Runs the job in parallel for each place of a list, begun in the given order, and returns the
+    /// results in the list's order.
     fn each<T: Send>(&self, order: &[usize], job: impl Fn(usize) -> T + Sync) -> Vec<T> {
         let (begun, done) = (AtomicUsize::new(0), AtomicUsize::new(0));
         let next = |_| {
@@ -43,8 +43,8 @@ impl Work<'_> {
 }
 
 impl Front {
-    /// [`Front::of`] without verdicts, cut at a deadline: members whose turn does not come are as the search
-    /// left them.
+    /// As [`Front::of`], but without verdicts, and cut at a deadline: members that are not polished
+    /// by then stay as the search left them.
     pub fn polished(search: &Search, work: &Work) -> Front {
         let problem = search.problem();
         let measure = problem.goal.measure;
@@ -69,8 +69,8 @@ impl Front {
         Front::affordable(members.into_iter().flatten(), search, measure)
     }
 
-    /// [`Front::in_measure`] without verdicts, cut at a deadline; then the members of another front are
-    /// among those that compete.
+    /// As [`Front::in_measure`], but without verdicts, and cut at a deadline; if it was cut, the
+    /// members of the front `known` compete as well.
     pub fn polished_in(search: &Search, measure: Measure, known: &Front, work: &Work) -> Front {
         let problem = search.problem();
         if measure == problem.goal.measure {
@@ -96,7 +96,8 @@ impl Front {
         Front::affordable(members.into_iter(), search, measure)
     }
 
-    /// What is brought into its range by polishing may have become too expensive.
+    /// Makes a front of the members within the cost budget, which polishing may exceed when it
+    /// brings a formula into its range.
     fn affordable(
         members: impl Iterator<Item = FrontMember>,
         search: &Search,
@@ -110,8 +111,8 @@ impl Front {
     }
 }
 
-/// The archive's drafts, the most valuable first; of an empty one the best constant, so that there always is
-/// a front.
+/// Returns the archive's drafts, the most valuable first; the best constant if it is empty, so that
+/// there always is a front.
 fn archived(search: &Search) -> Vec<Draft> {
     let members = search.archive().members();
     if members.is_empty() {
@@ -131,18 +132,18 @@ fn archived(search: &Search) -> Vec<Draft> {
     order.into_iter().map(|place| members[place].draft.clone()).collect()
 }
 
-/// Least squares are linear in a constant: a step, and one more for rounding.
+/// The end of a constant's fit. Least squares are linear in it: a step, and one more for rounding.
 const CONSTANT: Stop = Stop { max_steps: 8, min_gain: 1e-12 };
 
-/// Of a front's (cost, error), by rising cost: the places of those first that gain the most, in the
-/// logarithm of the error times the cycles up to the next.
+/// Orders the places of a front's pairs of cost and error, given by rising cost: first those that
+/// gain the most, in the logarithm of the error times the cycles up to the next.
 fn by_value(front: &[(f64, f64)]) -> Vec<usize> {
     let value = |place: usize| {
         let (cost, error) = front[place];
         let width = front.get(place + 1).map_or(1.0, |next| next.0 - cost);
         match place.checked_sub(1).map(|before| front[before].1) {
             Some(before) => width * (before / error.max(f64::MIN_POSITIVE)).ln(),
-            // Without the cheapest there may be no front.
+            // The cheapest comes first: without it there may be no front.
             None => f64::INFINITY,
         }
     };
@@ -151,29 +152,30 @@ fn by_value(front: &[(f64, f64)]) -> Vec<usize> {
     order
 }
 
-/// What may be on the front for the maximum error, and whether the deadline left some out.
+/// Returns the drafts that may be on the front for the maximum error, and whether the deadline left
+/// some out.
 fn contending(search: &Search, measure: Measure, work: &Work) -> (Vec<Draft>, bool) {
     let mut drafts = archived(search);
     drafts.extend(search.contenders());
     let problem = search.problem();
     let samples = problem.all_in(measure);
-    // As long to look as to polish what is worth it.
+    // Half of the time is left for polishing those that are worth it.
     let half = work.deadline.left().map(|left| left / 2);
     let look = half.map_or_else(|| work.deadline.clone(), |half| work.deadline.within(half));
     shortlist(drafts, problem, &samples, &look)
 }
 
-/// What finishing a search is going to take.
+/// An estimate of the time that finishing a search takes.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Rehearsal {
-    /// Seconds to polish the front.
+    /// The seconds to polish the front.
     pub polish: f64,
-    /// Seconds to judge it.
+    /// The seconds to judge it.
     pub judge: f64,
 }
 
 impl Rehearsal {
-    /// Finishes the costliest member, and takes the others to be a little faster.
+    /// Finishes the costliest member, timed, and assumes that the others take a little less.
     pub fn of(search: &Search, deadline: &Deadline) -> Rehearsal {
         let members = search.archive().members();
         let Some(costliest) = members.last() else { return Rehearsal::default() };
@@ -197,7 +199,7 @@ impl Rehearsal {
     }
 }
 
-/// The time that a member takes on average, relative to the costliest. By hand.
+/// The average member's time as a share of the costliest one's. By hand.
 const OF_DEAREST: f64 = 0.6;
 
 #[cfg(test)]

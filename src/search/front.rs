@@ -1,4 +1,4 @@
-//! The front: what a search leaves behind.
+//! The front: the formulas that a search ends with.
 
 use super::{Search, Work};
 use crate::archive::undominated;
@@ -16,23 +16,23 @@ use rayon::prelude::*;
 pub struct FrontMember {
     /// The formula over the dataset's columns.
     pub program: Program,
-    /// Cycles on the search's GPU profile.
+    /// Its cycles on the search's GPU profile.
     pub cost: f64,
-    /// Registers on it; none where a run's record has none.
+    /// Its registers on that profile; none if a run's record lacks them.
     pub registers: Option<u32>,
     /// Its errors on both splits.
     pub score: Score,
-    /// Not judged where nobody asked.
+    /// Its verdict; unjudged until [`FrontMember::judge`].
     pub verdict: VerdictRecord,
     /// Its text.
     pub formula: String,
 }
 
 impl FrontMember {
-    /// A program over the dataset's columns, folded, costed and scored.
+    /// Folds, costs and scores a program over the dataset's columns.
     ///
     /// # Panics
-    /// If the program has other numbers of inputs or outputs than the dataset and `names`.
+    /// If the program's numbers of inputs or outputs are not those of the dataset and `names`.
     pub fn new(
         program: Program,
         dataset: &Dataset,
@@ -41,7 +41,7 @@ impl FrontMember {
     ) -> FrontMember {
         let program = folded(&program);
         let formula = print(&program, names);
-        // What is shown is what is scored and emitted, operand by operand.
+        // The program scored and emitted is the one shown, operand by operand.
         let program = parse(&formula, names).unwrap_or(program);
         let score = Score::of(&program, dataset, &mut Evaluator::default());
         let Cost { cycles, registers, .. } = profile.cost(&program);
@@ -49,14 +49,15 @@ impl FrontMember {
         FrontMember { program, cost: cycles, registers: Some(registers), score, verdict, formula }
     }
 
-    /// Finds out what can be proved of it, unless that is known.
+    /// Judges the formula, unless it is judged already.
     pub fn judge(&mut self, questions: &Questions, names: &Names) {
         if !self.verdict.is_judged() {
             self.verdict = VerdictRecord::new(&Verdict::of(&self.program, questions), names);
         }
     }
 
-    /// Whether it costs no more than the other and errs no more, where a front in that measure is judged.
+    /// Returns true if its cost and its [`FrontMember::deciding_error`] do not exceed the other's,
+    /// and one of them is smaller.
     pub fn dominates(&self, other: &FrontMember, measure: Measure) -> bool {
         let [mine, other_error] = [self, other].map(|member| member.deciding_error(measure));
         self.cost <= other.cost
@@ -64,8 +65,8 @@ impl FrontMember {
             && (self.cost < other.cost || mine < other_error)
     }
 
-    /// What decides whether it is on a front: the error on the validation split, which formulas were not
-    /// fitted to; but the maximum error where it was made small, on the search split.
+    /// Returns the error that decides about a front: that on the validation split, which formulas
+    /// are not fitted to; for the maximum error that on the search split, where it was made small.
     pub fn deciding_error(&self, measure: Measure) -> f64 {
         match measure {
             Measure::Max => self.search_error().max,
@@ -73,18 +74,18 @@ impl FrontMember {
         }
     }
 
-    /// Over all outputs, on the search split.
+    /// Returns the errors over all outputs on the search split.
     pub fn search_error(&self) -> OutputError {
         self.score.joint_search()
     }
 
-    /// Over all outputs, on the validation split.
+    /// Returns the errors over all outputs on the validation split.
     pub fn validation_error(&self) -> OutputError {
         self.score.joint_validation()
     }
 }
 
-/// A published formula, scored as a member would be.
+/// A published formula, scored as a member of a front would be.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ScoredIncumbent {
     /// The name of the publication.
@@ -93,33 +94,33 @@ pub struct ScoredIncumbent {
     pub member: FrontMember,
 }
 
-/// An error smaller than that of the cheapest member by more than this counts as none where logarithms are
-/// compared.
+/// The least error, as a share of the cheapest member's, that counts when logarithms are compared.
+/// Chosen by hand, unmeasured.
 const MIN_ERROR: f64 = 1e-9;
 
-/// Formulas by rising cost, none dominated in cost and error: the validation split's, but for the
-/// maximum error, which is judged where it was made small.
+/// Formulas by rising cost, none dominated in cost and error ([`FrontMember::deciding_error`]).
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Front {
-    /// What its errors are judged by.
+    /// The measure of its errors.
     pub measure: Measure,
-    /// The members by rising cost.
+    /// The members, by rising cost and falling error.
     pub members: Vec<FrontMember>,
 }
 
-/// Boxes for each proof of a member at first: enough for most.
+/// The boxes for each proof of a member in the first round: enough for most. Chosen by hand,
+/// unmeasured.
 const FEW_BOXES: usize = 1000;
 
 impl Front {
-    /// The archive's members, polished for what the search makes small: constants fitted to
-    /// convergence on all of the search split and shortened; then scored, those not finite
-    /// somewhere, refuted in what is required of them, or dominated dropped, and the rest judged.
+    /// Polishes the archive's members for the search's measure: constants are fitted to convergence
+    /// on the whole search split, then shortened. Then scores them, drops those that are not finite
+    /// somewhere, refuted in a requirement, or dominated, and judges the rest.
     pub fn of(search: &Search) -> Front {
         Front::in_measure(search, search.problem().goal.measure)
     }
 
-    /// [`Front::of`], polished and judged by any measure. For the maximum error, which other searches find
-    /// only by way of theirs, the islands' best compete as well.
+    /// As [`Front::of`], but for any measure. For the maximum error, which a search by another
+    /// measure finds only indirectly, the islands' best compete as well.
     pub fn in_measure(search: &Search, measure: Measure) -> Front {
         let work = &Work::TO_THE_END;
         let problem = search.problem();
@@ -131,14 +132,14 @@ impl Front {
         front
     }
 
-    /// Judges the members that are not judged.
+    /// Judges the members that are not judged yet.
     pub fn judge(&mut self, questions: &Questions, names: &Names) {
         self.judge_until(questions, names, &|| false);
     }
 
-    /// [`Front::judge`] until it is told to stop: first all members with little work each, then those
-    /// that this leaves open. What is undecided in the end is open, and a member that nobody came to
-    /// is not judged.
+    /// As [`Front::judge`], until `stopped` returns true: first all members with little work each,
+    /// then those that are still open. Undecided questions stay open; a member whose turn did not
+    /// come stays unjudged.
     pub fn judge_until(&mut self, questions: &Questions, names: &Names, stopped: Stopped) {
         let mut left: Vec<&mut FrontMember> =
             self.members.iter_mut().filter(|member| !member.verdict.is_judged()).collect();
@@ -148,7 +149,7 @@ impl Front {
                     return None;
                 }
                 let verdict = Verdict::within(&member.program, questions, boxes, stopped);
-                // What was cut short may know less than the round before it.
+                // A round that was cut may know less than the one before it.
                 if boxes == FEW_BOXES || !stopped() {
                     member.verdict = VerdictRecord::new(&verdict, names);
                 }
@@ -158,26 +159,26 @@ impl Front {
         }
     }
 
-    /// Keeps the members that are not dominated.
+    /// Makes a front of the members that are not dominated.
     pub fn from_members(members: Vec<FrontMember>, measure: Measure) -> Front {
         let place = |member: &FrontMember| (member.cost, member.deciding_error(measure));
         let members = undominated(members, place, |a, b| a.formula.cmp(&b.formula));
         Front { measure, members }
     }
 
-    /// The cheapest member whose error is at most `max_error`, if that is given, else the most
-    /// accurate; of those that cost at most `max_cost`.
+    /// Returns the cheapest member whose error on the search split is at most `max_error`, or the
+    /// most accurate one if that is not given, of those that cost at most `max_cost` cycles.
     pub fn within(&self, max_cost: Option<f64>, max_error: Option<f64>) -> Option<&FrontMember> {
         let (cost, error) = (max_cost.unwrap_or(f64::INFINITY), max_error.unwrap_or(f64::INFINITY));
         let mut suitable = self.members.iter().filter(|member| {
             member.cost <= cost && member.search_error().of(self.measure) <= error
         });
-        // The front falls: the cheapest is the first, the most accurate the last.
+        // Errors fall along the front: the cheapest is first, the most accurate last.
         if max_error.is_some() { suitable.next() } else { suitable.next_back() }
     }
 
-    /// The member that gains most over a straight line between the ends, in the logarithm of the
-    /// error: past it, cycles buy less.
+    /// Returns the member farthest below the straight line between the front's ends, in the
+    /// logarithm of the error: beyond it, cycles gain less. None if the front is empty.
     pub fn knee(&self) -> Option<&FrontMember> {
         let (first, last) = (self.members.first()?, self.members.last()?);
         let least = first.deciding_error(self.measure) * MIN_ERROR;

@@ -1,4 +1,4 @@
-//! What is asked of formulas: which error is made small, what every formula must be, what it may cost.
+//! The goal of a search: the error to make small, the requirements, and the cost budget.
 
 use super::Requirement;
 use crate::fit::Measure;
@@ -11,23 +11,23 @@ use std::str::FromStr;
 /// The most cycles that [`Goal::max_cost`] may be.
 pub const MAX_CYCLES: f64 = 1000.0;
 
-/// What is asked of formulas.
+/// The demands on formulas.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(default)]
 pub struct Goal {
-    /// What is made small.
+    /// The loss measure that the search minimises.
     pub measure: Measure,
-    /// What every formula must be.
+    /// The conditions that every formula must meet.
     pub requirements: Vec<Requirement>,
-    /// By output: the function of it that is searched for; where there are fewer, the output itself. A spelling of an
-    /// outer form ([`crate::program::Outer`]).
+    /// The function of each output that is searched for: a spelling of an outer form
+    /// ([`crate::program::Outer`]). An output without an entry is searched for itself.
     pub transforms: Vec<Option<Transform>>,
-    /// Cycles that a formula may cost at most.
+    /// The most cycles that a formula may cost, from 0 to [`MAX_CYCLES`].
     pub max_cost: f64,
 }
 
 impl Default for Goal {
-    /// The least RMSE at up to 40 cycles.
+    /// Returns the goal of the least RMSE at up to 40 cycles.
     fn default() -> Goal {
         Goal {
             measure: Measure::Rmse,
@@ -38,8 +38,8 @@ impl Default for Goal {
     }
 }
 
-/// A function of an output that is searched for, where that is the simpler surface (Pesce & Iwanicki 2015, §4.3). The
-/// formula pays for the inverse around it, and its error is measured on the output all the same.
+/// A function of an output to search for if it is the simpler surface (Pesce & Iwanicki 2015,
+/// §4.3). The formula's cost includes the inverse, and its error is that of the output itself.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub enum Transform {
     /// `1/y`, within a reciprocal.
@@ -90,12 +90,13 @@ impl Transform {
 }
 
 impl Goal {
-    /// What formulas are searched for within: the inverses of the transforms; nothing where there are none.
+    /// Returns the outer form, the transforms' inverses; none if there are no transforms.
     pub(super) fn outer(&self, inputs: usize, outputs: usize) -> Option<Outer> {
         self.around_outputs(inputs, outputs, Transform::invert)
     }
 
-    /// What makes of outputs the values that are searched for.
+    /// Returns the form that turns outputs into the values searched for; none as for
+    /// [`Goal::outer`].
     pub(super) fn inner(&self, inputs: usize, outputs: usize) -> Option<Outer> {
         self.around_outputs(inputs, outputs, Transform::apply)
     }
@@ -117,17 +118,17 @@ impl Goal {
         Some(Outer::new(Program::verify(draft).expect("a few instructions on inputs"), outputs))
     }
 
-    /// Whether this can be asked of formulas of so many inputs and outputs.
+    /// Checks the goal for formulas of so many inputs and outputs.
     ///
     /// # Errors
-    /// The first field that cannot be meant.
+    /// The first field that is invalid.
     pub fn check(&self, inputs: usize, outputs: usize) -> Result<(), String> {
         if !(0.0..=MAX_CYCLES).contains(&self.max_cost) {
             let max_cost = self.max_cost;
             return Err(format!("`max_cost` is {max_cost}; it must be 0 to {MAX_CYCLES} cycles"));
         }
         if self.transforms.len() > outputs {
-            return Err("`transforms` are more than the outputs".into());
+            return Err("there are more `transforms` than outputs".into());
         }
         let ends = self.requirements.iter().any(|one| matches!(one, Requirement::Ends { .. }));
         if ends && self.measure == Measure::Relative {
@@ -148,7 +149,7 @@ impl Requirement {
         match *self {
             Requirement::Range { output, low, high } => match low < high {
                 true => of(output),
-                false => Err(format!("`requirements`: {low}..{high} is no range")),
+                false => Err(format!("`requirements`: {low}..{high} is no range; give LOW < HIGH")),
             },
             Requirement::Monotone { output, input, .. } | Requirement::Ends { output, input } => {
                 of(output)?;
@@ -156,7 +157,7 @@ impl Requirement {
             }
             Requirement::Input(input) => exists("input", input, inputs),
             Requirement::Half { error } if error.is_nan() || error <= 0.0 => {
-                Err(format!("`requirements`: {error} is no error of halves"))
+                Err(format!("`requirements`: half={error}; it must be above 0"))
             }
             Requirement::Half { .. } | Requirement::Operation(_) | Requirement::Finite => Ok(()),
         }

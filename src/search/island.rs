@@ -17,19 +17,21 @@ use rand_chacha::ChaCha8Rng;
 use serde::{Deserialize, Serialize};
 use std::sync::Arc;
 
-/// Structures that an island remembers having fitted; a newer one takes the place of an older. Half a megabyte, which
-/// stays in a processor's cache.
+/// The number of fitted structures that an island remembers; a newer one replaces an older. Half a
+/// megabyte, which stays in a processor's cache.
 const MEMORY: usize = 1 << 17;
 
-/// Fits of one structure, from different starting constants, before it counts as seen. By hand.
+/// The number of fits of a structure, from different starting constants, before it counts as seen.
+/// By hand.
 const TRIES: u32 = 2;
 
-/// A first look at a candidate, and what a promising one is given. By hand.
+/// The ends of a candidate's first fit, of a promising one's second, and of the archive's. By hand.
 const FIRST_STEPS: Stop = Stop { max_steps: 3, min_gain: 1e-3 };
 const MORE_STEPS: Stop = Stop { max_steps: 14, min_gain: 1e-3 };
 const ALL_SAMPLES: Stop = Stop { max_steps: 8, min_gain: 1e-3 };
 
-/// A quick look at the least maximum error, as long as a fit of [`MORE_STEPS`]. By hand.
+/// The effort of a quick fit for the least maximum error, which takes as long as one of
+/// [`MORE_STEPS`]. By hand.
 const QUICK_MINIMAX: Rounds = Rounds {
     most: 3,
     steps: Stop { max_steps: 2, min_gain: 1e-3 },
@@ -37,29 +39,29 @@ const QUICK_MINIMAX: Rounds = Rounds {
     wanted: f64::INFINITY,
 };
 
-/// After the first steps a candidate this many times worse (in mean square) than what it must beat is
-/// hopeless; or its mean of squares, where it is the square of the maximum that must be beaten. By hand.
+/// A candidate is hopeless if its mean square after the first steps is more than so many times the
+/// loss that it must beat, a mean square or a square of the maximum. By hand.
 const HOPELESS: f64 = 6.0;
 
-/// The share to within which the subset's error estimates the whole table's. By hand: 256 samples give a mean of
-/// squares to about a tenth.
+/// The factor to within which the subset's loss estimates that on all samples. By hand: 256 samples
+/// give a mean square to about a tenth.
 const SUBSET_TOLERANCE: f64 = 1.15;
 
-/// What sets islands apart.
+/// The properties in which islands differ.
 struct Kind {
-    /// Of the cost budget. A cheap formula is soon as good as it gets where nothing costlier competes;
-    /// from there it migrates to islands that may spend more. Half of the islands spend less than half: most
-    /// formulas that are used are cheap.
+    /// The share of the cost budget. A cheap formula improves fast if nothing costlier competes,
+    /// and then migrates to islands that may spend more. Half of the islands have less than half
+    /// of the budget, since most formulas that are used are cheap.
     share: f64,
-    /// Individuals compete within their family only.
+    /// True if individuals compete within their family only.
     by_family: bool,
-    /// Where the maximum error is to be small: individuals compete by it. The others go on by RMSE, which
-    /// is found out sooner, and send what they find.
+    /// True if individuals compete by the maximum error, should that be the one to make small. The
+    /// other islands go by the RMSE, which is faster to fit, and send their best.
     by_maximum: bool,
 }
 
-/// The shares were chosen on the split-integral DFG: with half of the islands under half of the budget, 20 seconds came to
-/// .0121 at 12 cycles, .0141 before.
+/// The kinds of islands, in turn. The shares were chosen on the split-integral DFG: with half of
+/// the islands under half of the budget, 20 seconds came to .0121 at 12 cycles, .0141 before.
 const KINDS: [Kind; 8] = [
     Kind { share: 1.0, by_family: false, by_maximum: false },
     Kind { share: 0.3, by_family: true, by_maximum: false },
@@ -71,23 +73,23 @@ const KINDS: [Kind; 8] = [
     Kind { share: 0.8, by_family: true, by_maximum: false },
 ];
 
-/// The least share of the cost budget that counts for the number of candidates: so at most a hundred times as
-/// many. By hand.
+/// The least share of the cost budget that counts for the number of candidates, which is thereby at
+/// most a hundredfold. By hand.
 const MIN_SHARE: f64 = 0.1;
 
-/// Where families are kept apart, the share that a bucket has of its size. By hand.
+/// The factor of the bucket size on islands that keep families apart. By hand.
 const FAMILY_BUCKET: f64 = 0.34;
 
 #[derive(Clone, Debug, Serialize, Deserialize)]
 pub(super) struct Island {
     pub population: Population,
-    /// As the last barrier left it, and what this island has found since.
+    /// The archive that the last barrier left, with the island's finds since.
     pub archive: Archive,
     pub counts: Counts,
-    /// Whether losses in its population are squares of the maximum error, not means of squares.
+    /// True if losses in its population are squares of the maximum error, not mean squares.
     pub by_maximum: bool,
     rates: Rates,
-    /// Hashes of structures, the low bits counting tries.
+    /// Hashes of structures, whose low bits count fits.
     seen: Vec<u32>,
     under_way: Option<UnderWay>,
     #[serde(skip)]
@@ -97,17 +99,17 @@ pub(super) struct Island {
     race: Arc<Samples>,
 }
 
-/// How far an island is in a generation that it has begun: it goes on as if never stopped.
+/// The state of an island within a generation, from which it continues as if never stopped.
 #[derive(Clone, Debug, Serialize, Deserialize)]
 struct UnderWay {
     considered: usize,
-    /// Of the random stream.
+    /// The position in the random stream.
     word: u128,
-    /// As the generation began.
+    /// The rates at the start of the generation.
     rates: Rates,
 }
 
-/// The memory in which candidates are made; no state between candidates.
+/// The memory in which candidates are made; it carries no state from one to the next.
 #[derive(Clone, Debug, Default)]
 struct Scratch {
     variation: Variation,
@@ -123,7 +125,7 @@ impl Island {
     pub fn new(number: usize, goal: &Goal, method: &Method) -> Island {
         let Kind { share, by_family, by_maximum } = KINDS[number % KINDS.len()];
         let max_cost = (goal.max_cost * share).ceil().min(goal.max_cost);
-        // As many individuals on each island.
+        // All islands have about as many individuals.
         let crowd = method.bucket_size as f64 * (goal.max_cost + 1.0);
         let size = crowd / (max_cost + 1.0) * if by_family { FAMILY_BUCKET } else { 1.0 };
         Island {
@@ -139,10 +141,10 @@ impl Island {
         }
     }
 
-    /// Whether it could have come of a new one, for so many inputs and outputs.
+    /// Checks that it can have evolved from a new one, for so many inputs and outputs.
     pub fn check(&self, new: &Island, inputs: usize, outputs: usize) -> Result<(), String> {
         if (self.seen.len(), self.by_maximum) != (new.seen.len(), new.by_maximum) {
-            return Err("it is not as its settings make it".into());
+            return Err("its memory or error measure does not match its settings".into());
         }
         self.rates.check()?;
         if let Some(under_way) = &self.under_way {
@@ -152,8 +154,8 @@ impl Island {
         self.population.check(&new.population, inputs, outputs)
     }
 
-    /// Goes on with a generation, on a random stream of its own, until it is done or the deadline is past;
-    /// says which.
+    /// Continues a generation, on a random stream of its own, until it is done or the deadline is
+    /// past. Returns true if it is done.
     pub fn generation(
         &mut self,
         problem: &Problem,
@@ -189,25 +191,26 @@ impl Island {
         is_done
     }
 
-    /// Candidates race on these samples from now on.
+    /// Sets the samples on which candidates race from now on.
     pub fn race_on(&mut self, samples: &Arc<Samples>) {
         self.race = Arc::clone(samples);
     }
 
-    /// The next call of [`Island::generation`] begins one.
+    /// Ends the generation, so that the next call of [`Island::generation`] begins one.
     pub fn end_generation(&mut self) {
         self.under_way = None;
     }
 
-    /// A fit takes a time that grows with instructions times constants, so about with the square of the
-    /// cost: islands that spend less consider more, and none waits long for the others.
+    /// Returns the number of candidates of a generation. A fit's time grows with instructions times
+    /// constants, so about with the square of the cost: islands with a smaller budget consider more
+    /// candidates, and none waits long for the others.
     fn candidates(&self, max_cost: f64, with_all_of_it: usize) -> usize {
         let share = self.population.max_cost / max_cost.max(1.0);
         (with_all_of_it as f64 / share.clamp(MIN_SHARE, 1.0).powi(2)) as usize
     }
 
-    /// Makes a child of the population, or a random draft where there is none, or for an immigrant. Gives
-    /// the changes that made it.
+    /// Makes a child of the population, or a random draft if that is empty or an immigrant is due.
+    /// Returns the kinds of change that made it, a bit each.
     fn make_offspring(&mut self, rng: &mut ChaCha8Rng, problem: &Problem, immigrants: f64) -> u16 {
         let Scratch { variation, child, .. } = &mut self.scratch;
         let immigrates = immigrants > 0.0 && rng.random::<f64>() < immigrants;
@@ -224,7 +227,7 @@ impl Island {
         }
     }
 
-    /// Simplifies, costs, fits and offers the child; drops it where it has no chance.
+    /// Simplifies, costs, fits and offers the child, unless it is rejected on the way.
     fn consider(&mut self, problem: &Problem) {
         self.counts.considered += 1;
         match self.evaluated(problem) {
@@ -239,7 +242,7 @@ impl Island {
         }
     }
 
-    /// What the child has become, if the population may want it.
+    /// Returns the child as a fitted individual that the population may admit.
     fn evaluated(&mut self, problem: &Problem) -> Result<Individual, Rejection> {
         let scratch = &mut self.scratch;
         let cost = scratch.prepare(problem, self.population.max_cost)?;
@@ -260,7 +263,8 @@ impl Island {
         self.clamped(problem).ok_or(Rejection::Unfulfilled)
     }
 
-    /// Clamped outputs may be the cheapest way to what is required; around an outer form no child clamps.
+    /// Returns the candidate with clamped outputs, which may be the cheapest way to meet the
+    /// requirements; none within an outer form, around which no child can clamp.
     fn clamped(&mut self, problem: &Problem) -> Option<Individual> {
         let Scratch { fitter, cost: cost_scratch, candidate, .. } = &mut self.scratch;
         *candidate = problem.clamped(candidate).filter(|_| problem.outer.is_none())?;
@@ -283,8 +287,8 @@ impl Island {
         fulfils.then(|| Individual { draft: draft.clone(), cost, loss, hash })
     }
 
-    /// Offers the candidate, whose loss on the subset is given, to the archive, fitted on all samples, if
-    /// it may be wanted there.
+    /// Fits the candidate, whose loss on the subset is given, on all samples and offers it to the
+    /// archive, if it may be good enough.
     fn offer_to_archive(&mut self, problem: &Problem, cost: f64, mut loss: f64) {
         let Scratch { fitter, candidate, .. } = &mut self.scratch;
         let wanted = self.archive.best_loss(cost) * SUBSET_TOLERANCE;
@@ -309,14 +313,14 @@ impl Island {
         });
     }
 
-    /// Takes in another island's best.
+    /// Offers another island's best to the population.
     pub fn immigrate(&mut self, migrants: Vec<Individual>) {
         for migrant in migrants {
             self.population.offer(migrant);
         }
     }
 
-    /// Takes drafts from elsewhere into the population, as many as the deadline leaves time for.
+    /// Fits and offers drafts from elsewhere, as many as the deadline leaves time for.
     pub fn inject_all<'a>(
         &mut self,
         drafts: impl IntoIterator<Item = &'a Draft>,
@@ -332,8 +336,7 @@ impl Island {
         }
     }
 
-    /// Takes a draft from elsewhere into the population, fitted; equal constants in it are fitted
-    /// apart.
+    /// Fits and offers a draft from elsewhere; its equal constants are fitted separately.
     fn inject(&mut self, draft: &Draft, problem: &Problem) {
         let child = &mut self.scratch.child;
         child.copy_from(draft);
@@ -343,7 +346,7 @@ impl Island {
 }
 
 impl Scratch {
-    /// Makes the child a candidate, effective code as the grammar writes it, and costs it.
+    /// Makes the child a candidate, effective code in the grammar's operations. Returns its cost.
     fn prepare(&mut self, problem: &Problem, max_cost: f64) -> Result<f64, Rejection> {
         let Scratch { simplifier, cost: cost_scratch, child, candidate, .. } = self;
         simplifier.simplify(child, candidate);
@@ -364,7 +367,8 @@ impl Scratch {
         structural_hash(&formula, Constants::Ignored, &mut self.hashes)
     }
 
-    /// Fits the candidate on the subset, as long as it may come below what it must beat; its loss.
+    /// Fits the candidate on the subset while it may come below the loss that it must beat, and
+    /// returns its loss.
     fn race(
         &mut self,
         problem: &Problem,
@@ -383,7 +387,7 @@ impl Scratch {
                 return Err(Rejection::Hopeless);
             }
             let mut loss = fitter.go_on(formula, subset, MORE_STEPS) * scale;
-            // The mean of the squares is a lower bound of the square of the maximum.
+            // The mean square is a lower bound of the square of the maximum.
             if loss < admission && by_maximum {
                 loss = minimax_loss(fitter, formula, own, subset, admission);
             }
@@ -392,8 +396,8 @@ impl Scratch {
     }
 }
 
-/// The square of the maximum error, made small by the first `own` constants so long as it may come below what is
-/// wanted.
+/// Fits the first `own` constants for the least maximum error while its square may come below
+/// `wanted`, and returns that square.
 fn minimax_loss(
     fitter: &mut Fitter,
     draft: &mut Draft,
@@ -405,13 +409,13 @@ fn minimax_loss(
     minimax_free(fitter, draft, samples, rounds, |i| i < own).powi(2)
 }
 
-/// Whether the grammar has each operation, negation apart, which is free.
+/// Returns true if the grammar has each operation except negation, which is free.
 fn is_written_in(draft: &Draft, problem: &Problem) -> bool {
     let known = |op: Op| problem.grammar.operations.iter().any(|(known, _)| *known == op);
     draft.instrs.iter().all(|instr| instr.op() == Op::Neg || known(instr.op()))
 }
 
-/// Notes a structure; false where it has been fitted often enough.
+/// Notes a structure. Returns false if it has been fitted often enough.
 fn remember(seen: &mut [u32], hash: u64) -> bool {
     const COUNT: u32 = 3;
     let entry = &mut seen[(hash >> 40) as usize & (MEMORY - 1)];

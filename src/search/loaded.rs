@@ -1,5 +1,5 @@
-//! What is read from a run's folder is held to the rules of what is typed: whoever has it can rely on
-//! them, wherever the files came from.
+//! Checks of states and fronts read from files, which must obey the same rules as those made here,
+//! so that all other code can rely on them.
 
 use super::island::Island;
 use super::{FrontMember, Goal, Method, State};
@@ -7,12 +7,12 @@ use crate::archive::Archive;
 use crate::grammar::MAX_INSTRUCTIONS;
 use crate::program::Draft;
 
-/// A search's formulas have at most [`MAX_INSTRUCTIONS`]; what is required of outputs and the inverses
-/// of transforms add a few.
+/// The most instructions of a finished formula: a search's has at most [`MAX_INSTRUCTIONS`], and
+/// required ranges and the inverses of transforms add a few.
 const MAX_FINISHED: usize = 4 * MAX_INSTRUCTIONS;
 
 impl FrontMember {
-    /// Whether a search could have left it.
+    /// Checks that a search can have left it.
     pub(crate) fn check(&self) -> Result<(), String> {
         not_negative("cost", self.cost)?;
         for error in self.score.search.iter().chain(&self.score.validation) {
@@ -24,11 +24,11 @@ impl FrontMember {
 }
 
 impl State {
-    /// Whether a search for this goal by this method could have come here, for so many inputs and outputs: every
-    /// program verified, every place that is indexed there, every number finite.
+    /// Checks that a search for this goal by this method, for so many inputs and outputs, can have
+    /// reached this state: every program is verified, every index exists, every number is finite.
     ///
     /// # Errors
-    /// What is not so.
+    /// The first violation.
     pub fn check(
         &self,
         goal: &Goal,
@@ -39,7 +39,7 @@ impl State {
         goal.check(inputs, outputs)?;
         method.check()?;
         if self.islands.len() != method.islands {
-            return Err("it has not as many islands as its settings say".into());
+            return Err("its number of islands does not match its settings".into());
         }
         self.archive.check(inputs, outputs)?;
         for (number, island) in self.islands.iter().enumerate() {
@@ -60,17 +60,17 @@ impl Archive {
         }
         match self.members().is_sorted_by(|a, b| a.cost <= b.cost) {
             true => Ok(()),
-            false => Err("the archive is not by rising cost".into()),
+            false => Err("the archive is not sorted by rising cost".into()),
         }
     }
 }
 
-/// Whether a draft is a program, short, of so many inputs and outputs.
+/// Checks that a draft is a short program of so many inputs and outputs.
 pub(super) fn check_draft(draft: &Draft, inputs: usize, outputs: usize) -> Result<(), String> {
     draft.check().map_err(|invalid| invalid.to_string())?;
     if (draft.inputs, draft.outputs.len()) != (inputs, outputs) {
         return Err(format!(
-            "a program of {} inputs and {} outputs, where there are {inputs} and {outputs}",
+            "a program of {} inputs and {} outputs; it must have {inputs} and {outputs}",
             draft.inputs,
             draft.outputs.len()
         ));

@@ -1,29 +1,30 @@
-//! How a search goes about its problem.
+//! The method: the settings of a search.
 
 use serde::{Deserialize, Serialize};
 
 /// The most that [`Method::islands`] may be.
 pub const MAX_ISLANDS: usize = 256;
 
-/// How a problem is searched: with the seed, all that decides the course of a search.
+/// The settings of a search: with its problem, all that decides its course. The default is
+/// the benchmarked one.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(default)]
 pub struct Method {
-    /// Of the random streams.
+    /// The seed of the random streams.
     pub seed: u64,
-    /// Populations that evolve apart; not the number of threads.
+    /// The number of populations that evolve apart, 1 to [`MAX_ISLANDS`]; not that of threads.
     pub islands: usize,
-    /// Candidates that an island with the whole cost budget considers in a generation; one with less
-    /// considers more, up to a hundred times as many.
+    /// The candidates in a generation of an island with the whole cost budget, 1 to 1 000 000; an
+    /// island with less has more, up to a hundred times as many.
     pub candidates: usize,
-    /// The share of candidates that are random rather than children; all of them make it a search by
-    /// random restarts and fitting, to compare with.
+    /// The share of candidates that are random drafts rather than children, 0 to 1. At 1 the search
+    /// is one by random restarts and fitting, for comparison.
     pub immigrants: f64,
-    /// Individuals that an island keeps at each cost.
+    /// The most individuals in a bucket of an island with the whole cost budget, 1 to 1000.
     pub bucket_size: usize,
-    /// Generations between migrations.
+    /// The number of generations between migrations, at least 1.
     pub migration_interval: u64,
-    /// Samples on which candidates race; all of them where there are fewer.
+    /// The number of samples on which candidates race, at least 1; all samples if there are fewer.
     pub subset: usize,
 }
 
@@ -42,10 +43,10 @@ impl Default for Method {
 }
 
 impl Method {
-    /// Whether a search can be made so.
+    /// Checks the settings.
     ///
     /// # Errors
-    /// The first field that cannot be meant.
+    /// The first field that is out of range.
     pub fn check(&self) -> Result<(), String> {
         within("islands", self.islands, 1, MAX_ISLANDS)?;
         within("candidates", self.candidates, 1, 1_000_000)?;

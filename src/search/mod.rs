@@ -1,13 +1,26 @@
-//! The search: islands of programs, varied, costed, fitted, and kept where they are best.
+//! The search: islands of programs that are varied, costed, fitted, and kept if they are the best.
 //!
-//! Each generation every island considers a fixed number of candidates on a random stream of its
-//! own (seed, island, generation); archives are merged and migrants exchanged only between
-//! generations, in the islands' order. So the number of threads changes nothing but the time.
+//! In a generation every island considers a fixed number of candidates on a random stream of its
+//! own (seed, island, generation). Archives are merged and migrants exchanged only between
+//! generations, in the islands' order, so the number of threads changes nothing but the time.
 //!
-//! Islands differ in the cycles that a formula may cost there, and in who competes: on some only formulas
-//! with the same families of operations, so that a root or an exponential, expensive at first, can grow. Where the
-//! maximum error is to be small, it decides in the archive, and on every fourth island; on the others RMSE
-//! does, which is found out sooner.
+//! Islands differ in the cycles that a formula may cost, and in who competes: on some, only
+//! formulas with the same families of operations, so that a root or an exponential, expensive at
+//! first, can grow. If the maximum error is to be small, it decides in the archive and on every
+//! fourth island; on the others the RMSE decides, which is faster to fit.
+//!
+//! ```
+//! use lgp::dataset::{Dataset, axis};
+//! use lgp::search::{Front, Method, Problem, Search};
+//!
+//! let data = Dataset::sampled([axis("x", 0.0..=1.0)], ["y"], |[x]| [x * x])?;
+//! let problem = Problem::of(data).max_cost(4.0).build()?;
+//! let mut search = Search::new(problem, Method { islands: 2, ..Method::default() })?;
+//! (0..5).for_each(|_| search.advance());
+//! let front = Front::of(&search);
+//! assert!(front.within(Some(4.0), Some(0.01)).is_some());
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
 
 mod enumerate;
 mod finish;
@@ -46,48 +59,49 @@ use std::collections::HashSet;
 use std::sync::Arc;
 use std::time::Duration;
 
-/// For so long an island goes on before others have their turn: where a generation lasts long, none waits
-/// until there is no time left. Short beside the second that a budget is long at least.
+/// The longest turn of an island before the others': in a long generation none waits until no time
+/// is left. Short beside one second, the shortest budget.
 const TURN: Duration = Duration::from_millis(100);
 
-/// How much worse in mean square than the archive's a contender may be. By hand.
+/// The largest ratio of a contender's mean square to the archive's. By hand.
 const CONTENDING: f64 = 4.0;
 
-/// Where the maximum error was searched for, the archive's losses are its squares: how much larger a
-/// contender's may be, and how much of them its mean of squares, where that is its loss.
+/// The largest ratios if the maximum error is to be small, so that the archive's losses are its
+/// squares: of a contender's square of the maximum, and of its mean square if that is its loss.
+/// Chosen by hand, unmeasured.
 const CONTENDING_BY_MAXIMUM: f64 = 1.5;
 const CONTENDING_BY_MEAN: f64 = 0.3;
 
-/// What became of the candidates; each is counted once under `considered` and where it ended.
+/// The candidates by their fate; each counts under `considered` and where it ended.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Counts {
     /// All candidates.
     pub considered: u64,
-    /// More instructions than the grammar allows, or constants that are not finite.
+    /// Those with more instructions than the grammar allows, or with constants that are not finite.
     pub too_long: u64,
-    /// Out of the cost budget.
+    /// Those over the cost budget.
     pub too_expensive: u64,
-    /// Of a structure that was fitted before.
+    /// Those whose structure was fitted before.
     pub seen: u64,
-    /// Not built as required, or nested deeper than the grammar allows.
+    /// Those not built as required, or nested deeper than the grammar allows.
     pub inadmissible: u64,
-    /// Constants fitted on the subset: the sum of the following five.
+    /// Those whose constants were fitted on the subset: the sum of the following five.
     pub fitted: u64,
-    /// Infinite or NaN on a sample.
+    /// Those infinite or NaN on a sample.
     pub not_finite: u64,
-    /// Given up after the first steps of fitting.
+    /// Those given up after the first steps of fitting.
     pub hopeless: u64,
-    /// Fitted, and worse than the individuals that are there.
+    /// Those fitted but worse than the population's individuals.
     pub no_better: u64,
-    /// Good enough, its values not as required.
+    /// Those good enough, but whose values are not as required.
     pub unfulfilled: u64,
-    /// Taken into a population.
+    /// Those admitted to a population.
     pub admitted: u64,
-    /// Of those admitted, the ones fitted on all samples, since the archive may want them.
+    /// Those admitted that might be good enough for the archive, and so were fitted on all samples.
     pub fitted_on_all: u64,
 }
 
-/// Where a candidate ended that was not admitted.
+/// The reason why a candidate was not admitted, as in [`Counts`].
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Rejection {
     TooLong,
@@ -115,7 +129,7 @@ impl Counts {
     }
 
     pub(crate) fn add(&mut self, other: &Counts) {
-        // Destructured, so that none is forgotten.
+        // Destructured, so that no field is forgotten.
         let Counts {
             considered,
             too_long,
@@ -145,7 +159,7 @@ impl Counts {
     }
 }
 
-/// A search of a problem, under way.
+/// A search for a problem's formulas, under way.
 #[derive(Clone, Debug)]
 pub struct Search {
     problem: Arc<Problem>,
@@ -155,7 +169,7 @@ pub struct Search {
     state: State,
 }
 
-/// How far a search has come: what is needed to go on with it, beside its problem and method.
+/// The state of a search: with its problem and method, all that is needed to continue it.
 #[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct State {
     generation: u64,
@@ -165,17 +179,17 @@ pub struct State {
 }
 
 impl State {
-    /// Generations that are done.
+    /// Returns the number of generations done.
     pub fn generation(&self) -> u64 {
         self.generation
     }
 
-    /// The best found so far, on the whole search split.
+    /// Returns the best drafts so far, judged on the whole search split.
     pub fn archive(&self) -> &Archive {
         &self.archive
     }
 
-    /// What became of all candidates so far.
+    /// Returns the counts of all islands' candidates so far.
     pub fn counts(&self) -> Counts {
         let mut counts = Counts::default();
         self.islands.iter().for_each(|island| counts.add(&island.counts));
@@ -184,10 +198,10 @@ impl State {
 }
 
 impl Search {
-    /// A search that has not begun.
+    /// Makes a search that has not begun.
     ///
     /// # Errors
-    /// [`SetupError::Method`].
+    /// [`SetupError::Method`] if the method is invalid.
     pub fn new(problem: impl Into<Arc<Problem>>, method: Method) -> Result<Search, SetupError> {
         method.check().map_err(SetupError::Method)?;
         let problem = problem.into();
@@ -197,10 +211,11 @@ impl Search {
         Ok(Search::with(problem, method, state))
     }
 
-    /// A search that goes on from where one for the same goal by the same method came.
+    /// Makes a search that continues from the state of one with the same goal and method.
     ///
     /// # Errors
-    /// [`SetupError::Method`]; [`SetupError::State`] if no such search can have come there.
+    /// [`SetupError::Method`] as for [`Search::new`]; [`SetupError::State`] if no such search can
+    /// have reached the state.
     pub fn resume(
         problem: impl Into<Arc<Problem>>,
         method: Method,
@@ -219,45 +234,45 @@ impl Search {
         Search { problem, method, race, state }
     }
 
-    /// What is searched for.
+    /// Returns the problem.
     pub fn problem(&self) -> &Arc<Problem> {
         &self.problem
     }
 
-    /// How.
+    /// Returns the method.
     pub fn method(&self) -> &Method {
         &self.method
     }
 
-    /// How far it has come.
+    /// Returns the state, from which [`Search::resume`] continues.
     pub fn state(&self) -> &State {
         &self.state
     }
 
-    /// Generations that are done.
+    /// Returns the number of generations done.
     pub fn generation(&self) -> u64 {
         self.state.generation
     }
 
-    /// The best found so far, on the whole search split; [`Problem::natural`] makes formulas of its drafts, and
-    /// [`Problem::error`] errors of its losses.
+    /// Returns the best drafts so far, judged on the whole search split. [`Problem::natural`] turns
+    /// them into formulas over the dataset's columns, [`Problem::error`] their losses into errors.
     pub fn archive(&self) -> &Archive {
         &self.state.archive
     }
 
-    /// The least error at no more than this cost, as [`FrontMember::search_error`] shows it; infinite where there is
-    /// none.
+    /// Returns the least error at no more than this cost, as [`FrontMember::search_error`] shows
+    /// it; infinite if no formula is that cheap.
     pub fn best_error(&self, cost: f64) -> f64 {
         self.problem.error(self.archive().best_loss(cost))
     }
 
-    /// How much the archive gains on the best constant: [`Archive::hypervolume`].
+    /// Returns the archive's gain over the best constant: [`Archive::hypervolume`].
     pub fn hypervolume(&self) -> f64 {
         self.archive().hypervolume(self.problem.goal.max_cost, self.problem.constant_loss)
     }
 
-    /// The islands' individuals of structures that the archive has left out, so far as they
-    /// are not much worse than its own.
+    /// Returns the formulas of the islands' individuals whose structures the archive lacks and that
+    /// are not much worse than its members.
     fn contenders(&self) -> Vec<Draft> {
         let archive = self.archive();
         let mut hashes = Vec::new();
@@ -280,20 +295,20 @@ impl Search {
         contenders
     }
 
-    /// What became of all candidates so far.
+    /// Returns the counts of all islands' candidates so far.
     pub fn counts(&self) -> Counts {
         self.state.counts()
     }
 
-    /// One generation of every island, in parallel on the current thread pool; the rest of one that
-    /// was cut.
+    /// Runs one generation of every island, or the rest of one that was cut, in parallel on the
+    /// current thread pool.
     pub fn advance(&mut self) {
         self.advance_until(&Deadline::NEVER);
     }
 
-    /// [`Search::advance`], cut at a deadline: what was found by then is kept, and the next call goes on
-    /// where this one stopped, as if nothing had been. Says whether the generation is done. (Fits on many
-    /// samples that a moment cuts are not done again; pauses and requests to stop cut none.)
+    /// As [`Search::advance`], but stops at a deadline and keeps what it has found; the next call
+    /// continues as if there had been no stop. Returns true if the generation is done. (A moment
+    /// may cut a fit on many samples, which is not repeated; pauses and requests to stop cut none.)
     pub fn advance_until(&mut self, deadline: &Deadline) -> bool {
         let (problem, method, state) = (&*self.problem, &self.method, &mut self.state);
         loop {
@@ -316,7 +331,7 @@ impl Search {
         true
     }
 
-    /// What islands learn of each other.
+    /// Merges the islands' archives and, at every interval, lets the best individuals migrate.
     fn barrier(&mut self, deadline: &Deadline) {
         let State { generation, islands, archive, .. } = &mut self.state;
         for island in islands.iter() {
@@ -330,7 +345,8 @@ impl Search {
         }
     }
 
-    /// Each island's best go on to the next. Where that goes by another error, as drafts.
+    /// Sends each island's best to the next; as drafts, to be fitted anew, if that goes by another
+    /// error.
     fn migrate(&mut self, deadline: &Deadline) {
         let (problem, islands) = (&*self.problem, &mut self.state.islands);
         let elites =
@@ -347,12 +363,12 @@ impl Search {
         });
     }
 
-    /// Starts every island with drafts from elsewhere, over the dataset's columns.
+    /// Offers drafts from elsewhere, over the dataset's columns, to every island.
     pub fn inject(&mut self, drafts: &[Draft]) {
         self.inject_until(drafts, &Deadline::NEVER);
     }
 
-    /// [`Search::inject`] of the first drafts, as many as the deadline leaves time for.
+    /// As [`Search::inject`], for as many of the first drafts as the deadline leaves time for.
     pub fn inject_until(&mut self, drafts: &[Draft], deadline: &Deadline) {
         let children: Vec<Draft> =
             drafts.iter().map(|draft| self.problem.searched_child(draft)).collect();

@@ -1,4 +1,4 @@
-//! What is done to a formula before it is shown.
+//! The finish of a formula before it is shown: fits, short constants, guards.
 
 use super::Problem;
 use super::front::FrontMember;
@@ -19,18 +19,19 @@ use crate::simplify::{Simplifier, tidy};
 use rayon::prelude::*;
 use std::cmp::Ordering;
 
-/// Fits of the front go on until nothing is gained.
+/// The end of a front member's fit: next to no gain. Chosen by hand, unmeasured.
 const TO_CONVERGENCE: Stop = Stop { max_steps: 200, min_gain: 1e-7 };
 
-/// The share by which constants of fewer digits may raise the sum of squares: half of it in RMSE. By hand: no
-/// plot shows two thousandths.
+/// The share by which constants of fewer digits may raise the sum of squares, which is half of it
+/// in RMSE. By hand: no plot shows two thousandths.
 const SHORTENING_ALLOWANCE: f64 = 0.004;
 
-/// The same for the maximum error.
+/// The share by which they may raise the maximum error. Chosen by hand, unmeasured.
 const MINIMAX_ALLOWANCE: f64 = 0.01;
 
-/// Fits to convergence, drops constants that do nothing and shortens the others, and drops what the constants
-/// or the domain have made superfluous. Nothing where the formula is not finite on every sample.
+/// Fits to convergence, drops constants that do nothing, shortens the others, and drops what the
+/// constants or the domain have made superfluous. None if no form of the formula is finite on every
+/// sample and as required.
 pub(super) fn polish(
     draft: &Draft,
     problem: &Problem,
@@ -61,20 +62,21 @@ pub(super) fn polish(
     };
     let smaller = short(smaller);
     let found = finished(&smaller, problem, names, measure);
-    // A constant that does nothing on samples may keep a divisor from zero between them.
+    // A dropped constant may have kept a divisor from zero between the samples.
     found.or_else(|| {
         let draft = short(fitted);
         finished(&draft, problem, names, measure).or_else(|| {
-            // What leaves its range is brought into it, if that is all that is wrong.
+            // Perhaps all that is wrong is an output that leaves its range.
             let clamped = problem.clamped(&draft)?;
             finished(&clamped, problem, names, measure)
         })
     })
 }
 
-/// The constants of laws once more, as they are shown: with few digits in the columns' own units, where others were
-/// searched, and without what is left of two that met when something idle between them was dropped. Laws are formulas that
-/// err by hardly more than rounding; of all others units shall change no bit of the errors.
+/// Shortens the constants of laws once more, in the columns' own units, which may not be those of
+/// the search, and merges constants that met when an idle operation between them was dropped. Laws
+/// are formulas that err by hardly more than rounding; units must not change a bit of the others'
+/// errors.
 pub(super) fn with_short_laws(
     members: Vec<FrontMember>,
     problem: &Problem,
@@ -109,8 +111,8 @@ pub(super) fn with_short_laws(
     each.collect()
 }
 
-/// The formula as the search left it, simplified; nothing where it is not finite on every sample or not as
-/// required.
+/// Returns the formula as the search left it, simplified; none if it is not finite on every sample
+/// or not as required.
 pub(super) fn as_found(draft: &Draft, problem: &Problem, names: &Names) -> Option<FrontMember> {
     let mut simple = Draft::default();
     Simplifier::default().simplify(&problem.natural(draft), &mut simple);
@@ -119,8 +121,8 @@ pub(super) fn as_found(draft: &Draft, problem: &Problem, names: &Names) -> Optio
     (member.score.is_finite() && problem.may_show(&member.program)).then_some(member)
 }
 
-/// The formula without what is superfluous and with guards, or as it is where that makes it worse or
-/// costlier; nothing where none is as required.
+/// Returns the formula with guards and without superfluous operations, or as it is if these make it
+/// worse or costlier; none if neither is finite and as required.
 fn finished(
     draft: &Draft,
     problem: &Problem,
@@ -134,7 +136,7 @@ fn finished(
     let natural = [draft.clone(), simple].into_iter().chain(guarded).filter_map(|draft| {
         let program = Program::verify(problem.natural(&draft).into_owned()).ok()?;
         let active = without_idle(&program, &problem.dataset.inputs);
-        // What was idle may have stood between constants.
+        // An idle operation may have separated two constants.
         let mut simple = Draft::default();
         simplifier.simplify(&active, &mut simple);
         let is_smaller = simple.instrs.len() < effective(&active).instrs.len();
@@ -156,16 +158,16 @@ fn finished(
     })
 }
 
-/// Whether an operation reads constants alone: where it cannot be folded, it has no finite value, such as a
-/// quotient by a constant that has become zero.
+/// Returns true if an operation reads constants alone. If simplification has not folded it, its
+/// value is not finite, such as a quotient by a constant that has become zero.
 pub(super) fn reads_only_constants(draft: &Draft) -> bool {
     let is_constant = |arg: &Arg| matches!(arg, Arg::Const(_));
     draft.instrs.iter().any(|instr| instr.args().iter().all(is_constant))
 }
 
-/// The formula with the absolute value of what roots, logarithms and powers are taken of: between
-/// samples, too, that is no NaN, and on most GPUs it is free. Nothing where there are none, or the grammar
-/// lacks the operation.
+/// Guards roots, logarithms and powers by the absolute value of their argument, which avoids NaN
+/// between samples and is free on most GPUs. None if there is nothing to guard or the grammar lacks
+/// `abs`.
 fn guarded(draft: &Draft, problem: &Problem) -> Option<Draft> {
     if !problem.grammar.operations.iter().any(|(op, _)| *op == Op::Abs) {
         return None;
@@ -179,8 +181,8 @@ fn guarded(draft: &Draft, problem: &Problem) -> Option<Draft> {
     (guarded.instrs.len() > draft.instrs.len()).then_some(guarded)
 }
 
-/// Of many drafts those that come near the least maximum error at their cost, by a quick look, and of
-/// those by a closer one; and whether the deadline left some out.
+/// Returns the drafts that come near the least maximum error at their cost, first by a quick look,
+/// then by a closer one; and whether the deadline left some out.
 pub(super) fn shortlist(
     drafts: Vec<Draft>,
     problem: &Problem,
@@ -192,6 +194,7 @@ pub(super) fn shortlist(
     (second, deadline.is_past())
 }
 
+/// The efforts of the two looks. Chosen by hand, unmeasured.
 const FIRST_LOOK: Rounds = Rounds {
     most: 3,
     steps: Stop { max_steps: 2, min_gain: 1e-3 },
@@ -200,7 +203,8 @@ const FIRST_LOOK: Rounds = Rounds {
 };
 const SECOND_LOOK: Rounds = Rounds { most: 0, linear_programs: 4, ..FIRST_LOOK };
 
-/// Those whose maximum error, made small, is less than `within` times that of every cheaper one.
+/// Fits the drafts and returns those whose maximum error is less than `within` times that of every
+/// cheaper one.
 fn screened(
     drafts: Vec<Draft>,
     problem: &Problem,
@@ -228,11 +232,11 @@ fn screened(
     near.into_iter().map(|(_, _, draft)| draft).collect()
 }
 
-/// The share by which a simpler form may be worse, by rounding. By hand.
+/// The factor by which a simpler form's error may be larger, by rounding. By hand.
 const WORSE: f64 = 1.0005;
 
-/// Without those of `abs`, `saturate`, `min` and `max` that, by interval arithmetic, do nothing
-/// anywhere in the inputs' domain.
+/// Drops each `abs`, `saturate`, `min` and `max` that, by interval arithmetic, never acts in the
+/// inputs' domain.
 fn without_idle(program: &Program, inputs: &[Column]) -> Program {
     let domain = |column: &Column| enclose(column.domain[0], column.domain[1]);
     let inputs: Vec<Interval> = inputs.iter().map(domain).collect();
@@ -259,7 +263,7 @@ fn without_idle(program: &Program, inputs: &[Column]) -> Program {
     Program::verify(draft).expect("as many instructions, of values that were there")
 }
 
-/// The place of the argument that the operation's result always is.
+/// Returns the place of the argument that the result always equals, if there is one.
 fn passes_through(op: Op, [a, b, ..]: [Interval; MAX_ARITY]) -> Option<usize> {
     if a.may_be_nan() || a.is_empty() || (op.arity() > 1 && (b.may_be_nan() || b.is_empty())) {
         return None;
@@ -285,8 +289,8 @@ mod tests {
     fn of_every_operation_of_pieces_it_is_known_where_it_passes_a_value_on() {
         let boxes = [[1.0, 2.0, 3.0, 4.0], [3.0, 4.0, 1.0, 2.0], [0.2, 0.4, 0.6, 0.8]];
         for &op in Op::ALL {
-            // Roundings to whole numbers, signs and angles act nearly everywhere; a step gives a number, and
-            // what a selection compares is no value that it passes on.
+            // Roundings to whole numbers, signs and angles act nearly everywhere; a step returns a
+            // number, and a selection does not return the values that it compares.
             let always_acts =
                 matches!(op, Op::Floor | Op::Fract | Op::Sign | Op::Atan2 | Op::Step | Op::Select);
             let passes = boxes.iter().any(|&[a, b, c, d]| {

@@ -8,33 +8,35 @@ use rand_chacha::ChaCha8Rng;
 use serde::{Deserialize, Serialize};
 use std::ops::Range;
 
-/// A fitted child, and the cost and loss, on the racing subset, of the formula that it becomes.
+/// A fitted child, with the cost and the loss, on the racing subset, of the formula that it
+/// becomes.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub(super) struct Individual {
     pub draft: Draft,
     pub cost: f64,
     pub loss: f64,
-    /// Of the formula: structural, constants ignored.
+    /// The formula's structural hash, constants ignored.
     pub hash: u64,
 }
 
-/// A bucket for each whole number of cycles and each family, sorted by loss, structures distinct.
+/// A bucket for each family and whole number of cycles, sorted by loss, structures distinct.
 #[derive(Clone, Debug, Serialize, Deserialize)]
 pub(super) struct Population {
-    /// Cycles that an individual may cost at most.
+    /// The most cycles that an individual may cost.
     pub max_cost: f64,
-    /// Whether individuals compete within their family only.
+    /// True if individuals compete within their family only.
     by_family: bool,
-    /// Family after family, each by rising cost.
+    /// The buckets, family after family, each by rising cost.
     buckets: Vec<Vec<Individual>>,
     bucket_size: usize,
 }
 
-/// Which of exponentials, roots and quotients a draft has. They are expensive: at first the like of
-/// `sqrt(1 - x)` errs more than a polynomial of its cost, and where both compete it is gone before
-/// anything has grown on it.
+/// The number of families.
 const FAMILIES: usize = 8;
 
+/// Returns a draft's family: a bit each for exponentials, roots and quotients. They are expensive:
+/// at first `sqrt(1 - x)` errs more than a polynomial as cheap, and if both compete it is gone
+/// before it has grown into anything better.
 fn family(draft: &Draft) -> usize {
     draft.instrs.iter().fold(0, |family, instr| {
         family
@@ -47,7 +49,7 @@ fn family(draft: &Draft) -> usize {
     })
 }
 
-/// How much worse than a cheaper individual one may be and still be let in. By hand: a costlier
+/// The largest ratio of a newcomer's loss to the least of cheaper individuals. By hand: a costlier
 /// structure may become better when it is varied.
 const SLACK: f64 = 1.5;
 
@@ -58,12 +60,12 @@ impl Population {
         Population { max_cost, by_family, buckets, bucket_size }
     }
 
-    /// Whether it could have come of a new one, for so many inputs and outputs.
+    /// Checks that it can have evolved from a new one, for so many inputs and outputs.
     pub fn check(&self, new: &Population, inputs: usize, outputs: usize) -> Result<(), String> {
         let kind = |one: &Population| (one.max_cost, one.by_family, one.bucket_size);
         let full = self.buckets.iter().any(|bucket| bucket.len() > self.bucket_size);
         if kind(self) != kind(new) || self.buckets.len() != new.buckets.len() || full {
-            return Err("its population is not as its settings make it".into());
+            return Err("its population does not match its settings".into());
         }
         for individual in self.individuals() {
             not_negative("cost", individual.cost)?;
@@ -73,14 +75,15 @@ impl Population {
         Ok(())
     }
 
-    /// The buckets of a draft's family up to its cost; its own is the last.
+    /// Returns the indices of the buckets of a draft's family up to its cost; its own is the last.
     fn up_to(&self, draft: &Draft, cost: f64) -> Range<usize> {
         let family = if self.by_family { family(draft) } else { 0 };
         let first = family * (self.max_cost as usize + 1);
         first..first + cost.min(self.max_cost) as usize + 1
     }
 
-    /// The loss that a newcomer at this cost must beat; none does that costs too much.
+    /// Returns the loss that a newcomer at this cost must beat; 0, which none beats, if it costs
+    /// too much.
     pub fn admission(&self, draft: &Draft, cost: f64) -> f64 {
         if cost > self.max_cost {
             return 0.0;
@@ -97,8 +100,8 @@ impl Population {
         worst.min(best * SLACK)
     }
 
-    /// Takes an individual in if it beats the admission, in place of one of the same structure if
-    /// there is one, else of the worst. Says whether it is in.
+    /// Admits an individual that beats the admission, in place of one of the same structure unless
+    /// that is better, else of the worst in a full bucket. Returns true if it was admitted.
     pub fn offer(&mut self, newcomer: Individual) -> bool {
         let admission = self.admission(&newcomer.draft, newcomer.cost);
         if newcomer.loss.is_nan() || newcomer.loss >= admission {
@@ -118,7 +121,8 @@ impl Population {
         true
     }
 
-    /// A bucket that is not empty, each as likely; of its individuals the better ones more.
+    /// Picks an individual: any occupied bucket with equal probability, and from it the better of
+    /// two random individuals.
     pub fn pick(&self, rng: &mut ChaCha8Rng) -> Option<&Individual> {
         let occupied = self.buckets.iter().filter(|bucket| !bucket.is_empty()).count();
         if occupied == 0 {
@@ -130,12 +134,12 @@ impl Population {
         bucket.get(a.min(b))
     }
 
-    /// Family after family, by rising cost.
+    /// Returns all individuals, family after family, by rising cost.
     pub fn individuals(&self) -> impl Iterator<Item = &Individual> {
         self.buckets.iter().flatten()
     }
 
-    /// The best of each bucket.
+    /// Returns the best of each bucket.
     pub fn elites(&self) -> impl Iterator<Item = &Individual> {
         self.buckets.iter().filter_map(|bucket| bucket.first())
     }

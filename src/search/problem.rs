@@ -1,4 +1,4 @@
-//! What is searched for, laid out as a search works on it.
+//! The problem: a goal for a dataset, a grammar and a GPU, laid out for a search.
 
 use super::Goal;
 use super::require::Checks;
@@ -13,30 +13,42 @@ use crate::simplify::{Placement, Simplifier};
 use std::borrow::Cow;
 use std::sync::Arc;
 
-/// What is searched for: formulas of some grammar for some samples, cheap on some GPU, as a [`Goal`] says.
+/// A search problem: formulas of a grammar for a dataset, cheap on a GPU, as a [`Goal`] demands.
+///
+/// ```
+/// use lgp::dataset::{Dataset, axis};
+/// use lgp::fit::Measure;
+/// use lgp::search::Problem;
+///
+/// let data = Dataset::sampled([axis("x", 0.0..=1.0)], ["y"], |[x]| [x * x])?;
+/// let problem = Problem::of(data).gpu("turing").measure(Measure::Max).max_cost(8.0).build()?;
+/// assert_eq!(problem.profile().name, "turing");
+/// assert_eq!(problem.goal().max_cost, 8.0);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 #[derive(Clone, Debug)]
 pub struct Problem {
     pub(super) dataset: Arc<Dataset>,
     /// The dataset over the columns that are searched ([`super::scales`]).
     searched: Arc<Dataset>,
-    /// How those columns are scaled; none if they are the dataset's own.
+    /// The scaling of those columns; none if they are the dataset's own.
     pub(super) scales: Option<Scales>,
     pub(super) grammar: Arc<Grammar>,
     pub(super) profile: Arc<Profile>,
     pub(super) goal: Goal,
     pub(super) checks: Checks,
-    /// What formulas are searched for within.
+    /// The outer form around formulas, if the goal has transforms.
     pub(super) outer: Option<Outer>,
     pub(super) all: Samples,
-    /// All samples without those that only hold formulas to an end; none where there are none.
+    /// All samples without those that only hold formulas to an end; none if there are no such.
     without_ends: Option<Samples>,
-    /// What the best constant's loss is.
+    /// The loss of the best constants.
     pub(super) constant_loss: f64,
-    /// Of errors over all outputs: losses are mean squares in it.
+    /// The unit of errors over all outputs, in which losses are mean squares.
     unit: f64,
 }
 
-/// A problem or a search that cannot be set up as asked.
+/// The reason why a problem or a search cannot be set up.
 #[allow(missing_docs, reason = "each message names its fields")]
 #[derive(Debug, thiserror::Error)]
 pub enum SetupError {
@@ -44,19 +56,19 @@ pub enum SetupError {
     Dataset(#[from] dataset::Error),
     #[error(transparent)]
     File(#[from] FileError),
-    #[error("the goal cannot be meant: {0}")]
+    #[error("the goal is invalid: {0}")]
     Goal(String),
-    #[error("the method cannot be meant: {0}")]
+    #[error("the method is invalid: {0}")]
     Method(String),
     #[error(
         "there are too many formulas of at most {cost} cycles to try all (more than {most}, or of too many inputs); ask for fewer cycles"
     )]
     TooMany { cost: f64, most: usize },
-    #[error("no search for this goal by this method comes there: {0}")]
+    #[error("no search for this goal by this method can have reached the state: {0}")]
     State(String),
 }
 
-/// A problem in the making: [`Problem::of`].
+/// A problem in the making, from [`Problem::of`].
 #[derive(Clone, Debug)]
 pub struct ProblemBuilder {
     dataset: Arc<Dataset>,
@@ -65,49 +77,49 @@ pub struct ProblemBuilder {
     goal: Goal,
 }
 
-/// What is not said otherwise.
+/// The name of the default grammar.
 pub const USUAL_GRAMMAR: &str = "shader";
-/// The GPU profile where none is named.
+/// The name of the default GPU profile.
 pub const USUAL_GPU: &str = "gcn";
 
 impl ProblemBuilder {
-    /// What may be written, instead of the grammar `shader`: a grammar, as [`Grammar::find`] gives it.
+    /// Sets the grammar of formulas, such as one from [`Grammar::find`]; by default `shader`.
     pub fn grammar(self, grammar: impl Into<Arc<Grammar>>) -> ProblemBuilder {
         ProblemBuilder { grammar: Ok(grammar.into()), ..self }
     }
 
-    /// What formulas cost, instead of on `gcn`: a profile, as [`Profile::find`] gives it.
+    /// Sets the profile of costs, such as one from [`Profile::find`]; by default `gcn`.
     pub fn profile(self, profile: impl Into<Arc<Profile>>) -> ProblemBuilder {
         ProblemBuilder { profile: Ok(profile.into()), ..self }
     }
 
-    /// The same by the name of a profile or a mix, as in `gcn:2,turing:1`.
+    /// Sets the profile by name, or a mix as in `gcn:2,turing:1`.
     pub fn gpu(self, name_or_mix: &str) -> ProblemBuilder {
         ProblemBuilder { profile: Err(name_or_mix.to_owned()), ..self }
     }
 
-    /// All that is asked of formulas at once.
+    /// Sets the whole goal.
     pub fn goal(self, goal: Goal) -> ProblemBuilder {
         ProblemBuilder { goal, ..self }
     }
 
-    /// What is made small, instead of the RMSE.
+    /// Sets the measure to minimise; by default the RMSE.
     pub fn measure(mut self, measure: Measure) -> ProblemBuilder {
         self.goal.measure = measure;
         self
     }
 
-    /// Cycles that a formula may cost, instead of 40.
+    /// Sets the most cycles that a formula may cost; by default 40.
     pub fn max_cost(mut self, cycles: f64) -> ProblemBuilder {
         self.goal.max_cost = cycles;
         self
     }
 
-    /// Checks all of it, and lays the samples out.
+    /// Checks all parts and lays the samples out.
     ///
     /// # Errors
-    /// [`SetupError`]: a dataset, grammar, profile or goal that breaks its own rules; a goal that the
-    /// dataset lacks the columns or weights for.
+    /// [`SetupError`]: a dataset, grammar, profile or goal that breaks its own rules; a goal for
+    /// which the dataset lacks columns or weights.
     pub fn build(self) -> Result<Problem, SetupError> {
         let ProblemBuilder { dataset, grammar, profile, goal } = self;
         dataset.validate()?;
@@ -150,8 +162,8 @@ impl ProblemBuilder {
 }
 
 impl Problem {
-    /// A problem of this dataset, to be built: by default with the grammar `shader`, on `gcn`, the least
-    /// RMSE at up to 40 cycles.
+    /// Makes a builder of a problem of this dataset; by default with the grammar `shader`, the GPU
+    /// `gcn`, and the goal of the least RMSE at up to 40 cycles.
     pub fn of(dataset: impl Into<Arc<Dataset>>) -> ProblemBuilder {
         ProblemBuilder {
             dataset: dataset.into(),
@@ -171,7 +183,7 @@ impl Problem {
         &self.grammar
     }
 
-    /// Returns the profile that costs are of.
+    /// Returns the GPU profile of costs.
     pub fn profile(&self) -> &Arc<Profile> {
         &self.profile
     }
@@ -181,8 +193,8 @@ impl Problem {
         &self.goal
     }
 
-    /// A subset of so many samples for candidates to race on; where the maximum error is to be small, and of as
-    /// many at the ends of the inputs.
+    /// Returns a subset of so many samples for candidates to race on; for the maximum error also up
+    /// to as many at the ends of the inputs.
     pub(super) fn race(&self, subset: usize) -> Samples {
         let mut rows = spread_rows(self.dataset.search.rows(), subset);
         if self.goal.measure == Measure::Max {
@@ -195,7 +207,7 @@ impl Problem {
         self.checks.samples(&self.searched, self.goal.measure, &rows)
     }
 
-    /// All samples, weighing as they do in a measure.
+    /// Returns all samples, weighted for a measure.
     pub(super) fn all_in(&self, measure: Measure) -> Samples {
         if measure == self.goal.measure {
             return self.all.clone();
@@ -204,18 +216,20 @@ impl Problem {
         self.checks.samples(&self.searched, measure, &rows)
     }
 
-    /// The same over the dataset's columns.
+    /// As [`Problem::all_in`], but over the dataset's own columns.
     pub(super) fn all_as_given(&self, measure: Measure) -> Samples {
         let rows: Vec<u32> = (0..self.dataset.search.rows() as u32).collect();
         self.checks.samples(&self.dataset, measure, &rows)
     }
 
-    /// The error over all outputs that a loss stands for, as [`super::FrontMember::search_error`] shows it.
+    /// Returns the error over all outputs that a loss stands for, as
+    /// [`super::FrontMember::search_error`] shows it.
     pub fn error(&self, loss: f64) -> f64 {
         loss.sqrt() * self.unit
     }
 
-    /// The loss of a draft that was fitted to all samples, which came to `fitted`.
+    /// Returns the archive's loss of a draft whose fit to all samples came to `fitted`: without the
+    /// samples that only hold formulas to an end.
     pub(super) fn archive_loss(
         &self,
         draft: &Draft,
@@ -237,18 +251,18 @@ impl Problem {
         }
     }
 
-    /// How many outputs a child has, which is what varies.
+    /// Returns the number of outputs of a child.
     pub(super) fn holes(&self) -> usize {
         self.outer.as_ref().map_or(self.all.outputs(), Outer::holes)
     }
 
-    /// The draft that a child becomes within the outer form.
+    /// Returns the draft that a child becomes within the outer form.
     pub(super) fn formula<'d>(&self, child: &'d Draft) -> Cow<'d, Draft> {
         self.outer.as_ref().map_or(Cow::Borrowed(child), |outer| Cow::Owned(outer.append(child)))
     }
 
-    /// Works on the draft that a child becomes, and takes what has become of the child's constants, which are so
-    /// many of the first; the others are the outer form's, and stay.
+    /// Runs `work` on the draft that a child becomes, and copies the child's constants back. They
+    /// are the first ones, and their number is passed; the others are the outer form's.
     pub(super) fn on_formula<R>(
         &self,
         child: &mut Draft,
@@ -262,12 +276,12 @@ impl Problem {
         result
     }
 
-    /// Cycles and penalties of the formula that a draft of the search becomes.
+    /// Returns the cycles plus penalties of the formula that a draft of the search becomes.
     pub(super) fn cost(&self, draft: &Draft, scratch: &mut CostScratch) -> f64 {
         self.natural_and_cost(draft, scratch).1
     }
 
-    /// Cycles and penalties of the formula that a child becomes.
+    /// Returns the cycles plus penalties of the formula that a child becomes.
     pub(super) fn cost_of_child(&self, child: &Draft, scratch: &mut CostScratch) -> f64 {
         let Some(outer) = &self.outer else { return self.cost(child, scratch) };
         let mut formula = Draft::default();
@@ -275,7 +289,7 @@ impl Problem {
         self.cost(&formula, scratch)
     }
 
-    /// A draft of the search as one over the dataset's columns.
+    /// Rewrites a draft of the search as one over the dataset's own columns.
     pub fn natural<'d>(&self, draft: &'d Draft) -> Cow<'d, Draft> {
         self.natural_and_cost(draft, &mut CostScratch::default()).0
     }
@@ -291,7 +305,7 @@ impl Problem {
         };
         let [first, in_constants] =
             [Placement::First, Placement::Constants].map(|place| scales.natural(draft, place));
-        // What folds in these units alone, constants that are none or one here by chance, is no gain yet.
+        // Costed as written: constants that are 0 or 1 only in these units are no gain yet.
         let costs = [&first, &in_constants].map(|draft| {
             self.profile.cycles_as_written(draft, scratch) + self.grammar.penalty(draft)
         });
@@ -301,12 +315,12 @@ impl Problem {
         }
     }
 
-    /// A draft over the dataset's columns as one of the search.
+    /// Rewrites a draft over the dataset's own columns as one of the search.
     pub(super) fn over_searched(&self, draft: &Draft) -> Draft {
         self.scales.as_ref().map_or_else(|| draft.clone(), |scales| scales.searched(draft))
     }
 
-    /// A draft over the dataset's columns as a child, which is what varies.
+    /// Rewrites a draft over the dataset's own columns as a child.
     pub(super) fn searched_child(&self, draft: &Draft) -> Draft {
         let searched = self.over_searched(draft);
         match self.goal.inner(searched.inputs, searched.outputs.len()) {
@@ -315,13 +329,13 @@ impl Problem {
         }
     }
 
-    /// What turns a sum of squares over all samples and outputs into a mean.
+    /// Returns the factor that turns a sum of squares over all samples and outputs into a mean.
     pub(super) fn scale(&self) -> f64 {
         1.0 / self.all.total_weight()
     }
 }
 
-/// The loss of the constants that err least, one for each output.
+/// Returns the loss of the best constants, one for each output.
 fn constant_loss(samples: &Samples, measure: Measure) -> f64 {
     let of = |output: usize| {
         let pairs = || samples.targets(output).iter().zip(samples.weights(output));
@@ -344,7 +358,7 @@ fn constant_loss(samples: &Samples, measure: Measure) -> f64 {
     }
 }
 
-/// Rows spread evenly over the table, by the golden ratio: on a grid they form a lattice.
+/// Returns rows spread evenly over the table by the golden ratio; on a grid they form a lattice.
 fn spread_rows(rows: usize, wanted: usize) -> Vec<u32> {
     if rows <= wanted {
         return (0..rows as u32).collect();
@@ -357,7 +371,7 @@ fn spread_rows(rows: usize, wanted: usize) -> Vec<u32> {
     spread
 }
 
-/// Rows at which an input is at an end: where errors are largest, more often than not.
+/// Returns the rows with an input at an end, where errors are mostly largest.
 fn edge_rows(split: &Split, inputs: usize) -> Vec<u32> {
     let bounds = |column: &Vec<f32>| {
         let ends = (f32::INFINITY, f32::NEG_INFINITY);

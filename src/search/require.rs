@@ -1,5 +1,5 @@
-//! What every formula of a search must be, whatever its error: checked on samples while it goes on,
-//! and over the whole domain before a formula is shown.
+//! Requirements that every formula must meet, whatever its error: checked on samples during a
+//! search, and over the whole domain before a formula is shown.
 
 use super::Problem;
 use crate::dataset::{Column, Dataset, Split, output_units};
@@ -14,8 +14,8 @@ use crate::stability::{
 use crate::suggest::did_you_mean;
 use serde::{Deserialize, Serialize};
 
-/// A condition on formulas. Those on values are checked on samples; of `Finite` and `Range` it is also
-/// tried to refute them anywhere in the domain before a formula is shown.
+/// A condition on formulas. Those on values are checked on samples; before a formula is shown, a
+/// refutation of `Finite` and `Range` is also sought in the whole domain.
 #[allow(missing_docs, reason = "the variants' docs name their fields")]
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub enum Requirement {
@@ -23,8 +23,8 @@ pub enum Requirement {
     Range { output: Option<u16>, low: f32, high: f32 },
     /// All outputs, or this one, never fall, or never rise, as an input grows.
     Monotone { output: Option<u16>, input: u16, rising: bool },
-    /// All outputs, or this one, meet the data to 1e-5 where an input is at either end of its
-    /// domain, and the dataset has a sample there.
+    /// All outputs, or this one, meet the data to 1e-5 of the output's largest magnitude at samples
+    /// with the input at either end of its domain.
     Ends { output: Option<u16>, input: u16 },
     /// The formula has this operation.
     Operation(Op),
@@ -32,29 +32,32 @@ pub enum Requirement {
     Input(u16),
     /// No output is infinite or NaN anywhere in the domain.
     Finite,
-    /// In half precision no output is off by more, absolute.
+    /// In half precision no output has a larger absolute error.
     Half { error: f64 },
 }
 
-/// How far a value may be off where it must be exact, of the output's largest magnitude.
+/// The largest error of a value that must be exact, as a share of the output's largest magnitude.
+/// Chosen by hand, unmeasured.
 const EXACT: f64 = 1e-5;
 
-/// What the samples at the ends weigh, against others in the mean; more where it is the maximum error that counts,
-/// by which all become alike. By hand: an end is then met to rounding.
+/// The weight of a sample at an end, in the others' mean weight; larger for the maximum error,
+/// which evens out all errors. By hand: an end is then met to rounding.
 const WEIGHT_OF_ENDS: f64 = 1e4;
 const WEIGHT_OF_ENDS_BY_MAXIMUM: f64 = 1e7;
 
-/// Steps over an input's domain, between the ends of which a monotone output is compared, and the rounding
-/// that is forgiven, of the output's largest magnitude.
+/// The number of steps over an input's domain, between whose ends a monotone output is compared,
+/// and the rounding allowed, as a share of the output's largest magnitude. Chosen by hand,
+/// unmeasured.
 const STEPS: f64 = 64.0;
 const ROUNDING: f64 = 1e-6;
 
 impl Requirement {
-    /// Reads `finite`, `range=0..1`, `half=1e-2`, `rising=INPUT`, `falling=INPUT`, `ends=INPUT`,
-    /// `uses=OPERATION` or `uses=INPUT`; an output's name and a dot before it make it that output's alone.
+    /// Parses `finite`, `range=0..1`, `half=1e-2`, `rising=INPUT`, `falling=INPUT`, `ends=INPUT`,
+    /// `uses=OPERATION` or `uses=INPUT`. A prefix of an output's name and a dot restricts a range,
+    /// a direction or ends to that output.
     ///
     /// # Errors
-    /// What is wrong with the text, and what may stand there.
+    /// A message that says what is wrong with the text, and what may be written.
     pub fn parse(text: &str, names: &Names) -> Result<Requirement, String> {
         let wanted = "give finite, range=LOW..HIGH, half=ERROR, rising=INPUT, falling=INPUT, ends=INPUT or uses=NAME, an output's name and a dot before it if it is for one output";
         if text == "finite" {
@@ -95,9 +98,9 @@ impl Requirement {
 }
 
 impl Requirement {
-    /// What [`Requirement::parse`] reads as this.
+    /// Returns the text that [`Requirement::parse`] reads as this.
     pub fn text(&self, names: &Names) -> String {
-        // A damaged record may name what there is not.
+        // A damaged record may name an output or input that does not exist.
         let named = |names: &[String], i: u16| {
             names.get(usize::from(i)).cloned().unwrap_or_else(|| format!("?{i}"))
         };
@@ -135,17 +138,18 @@ fn place(name: &str, names: &[String], kind: &str) -> Result<u16, String> {
 #[derive(Clone, Debug)]
 pub(super) struct Checks {
     requirements: Vec<Requirement>,
-    /// For each requirement: its samples, and where outputs are compared, those a step further.
+    /// The samples of each requirement; if outputs are compared, also those a step further.
     samples: Vec<Vec<Samples>>,
-    /// Inputs at which half precision is tried.
+    /// The inputs at which half precision is tried.
     few_points: Vec<Vec<f32>>,
-    /// By output: the largest value that occurs.
+    /// The largest magnitude of each output.
     magnitudes: Vec<f64>,
 }
 
 impl Checks {
-    /// Rows of the search split, laid out for a measure; and at the ends that must be exact both splits' rows,
-    /// weighing more. A mean is still that of the rows asked for.
+    /// Lays out rows of the search split for a measure, and adds the rows of both splits at the
+    /// ends that must be exact, with larger weights. The total weight stays that of the rows asked
+    /// for.
     pub fn samples(&self, dataset: &Dataset, measure: Measure, rows: &[u32]) -> Samples {
         let (inputs, units) = (dataset.inputs.len(), output_units(&dataset.outputs));
         let ends = self.rows_at_ends(dataset);
@@ -173,7 +177,7 @@ impl Checks {
         samples
     }
 
-    /// The rows of both splits, one after the other, whose values are required.
+    /// Returns the rows at ends that must be exact, as indices into both splits joined.
     fn rows_at_ends(&self, dataset: &Dataset) -> Vec<u32> {
         let inputs = self.requirements.iter().filter_map(|requirement| match *requirement {
             Requirement::Ends { input, .. } => Some(input),
@@ -195,7 +199,7 @@ impl Checks {
         Checks { samples, requirements: requirements.to_vec(), few_points, magnitudes }
     }
 
-    /// Whether a formula is built as required; its values are not looked at.
+    /// Returns true if a formula has the required operations and inputs, whatever its values.
     pub(crate) fn structure_ok(&self, draft: &Draft) -> bool {
         self.requirements.iter().all(|requirement| match *requirement {
             Requirement::Operation(wanted) => draft.instrs.iter().any(|instr| instr.op() == wanted),
@@ -207,7 +211,7 @@ impl Checks {
         })
     }
 
-    /// Whether a formula's values are as required on the samples.
+    /// Returns true if a formula's values on the samples are as required.
     pub(crate) fn hold_on_samples(&self, draft: &Draft, evaluator: &mut Evaluator) -> bool {
         let of_halves = |one: &Requirement| matches!(one, Requirement::Half { .. });
         if self.samples.iter().all(Vec::is_empty) && !self.requirements.iter().any(of_halves) {
@@ -263,7 +267,8 @@ impl Checks {
         })
     }
 
-    /// What is asked of formulas over the whole domain.
+    /// Returns the questions about formulas over the whole domain: the dataset's, with the required
+    /// ranges in place of its own.
     pub fn questions(&self, dataset: &Dataset) -> Questions {
         let mut questions = Questions::of(&dataset.inputs, &dataset.outputs, &dataset.claims);
         for requirement in &self.requirements {
@@ -277,7 +282,7 @@ impl Checks {
         questions
     }
 
-    /// Whether nothing required is refuted anywhere in the domain.
+    /// Returns true if no requirement is refuted anywhere in the domain.
     fn not_refuted(&self, program: &Program, dataset: &Dataset) -> bool {
         let domain = Questions::of(&dataset.inputs, &[], &[]).domain;
         let mut claims = Vec::new();
@@ -306,8 +311,8 @@ impl Checks {
         !claims.chunks(64).any(|some| prove(program, &domain, some, &limits).iter().any(refuted))
     }
 
-    /// The formula, each output that must stay in a range brought into it; nothing where none must, or
-    /// the grammar lacks the operation.
+    /// Clamps each output that must stay in a range; none if there is no such output, or if the
+    /// grammar lacks the operations.
     pub fn clamped(&self, draft: &Draft, grammar: &Grammar) -> Option<Draft> {
         let has = |wanted: Op| grammar.operations.iter().any(|(op, _)| *op == wanted);
         let mut clamped = draft.clone();
@@ -336,10 +341,10 @@ impl Checks {
     }
 }
 
-/// Boxes spent on a formula before it counts as not refuted. By hand.
+/// The boxes searched before a formula counts as not refuted. By hand.
 const BOXES: usize = 2000;
 
-/// Rows on which half precision is tried while a search goes on.
+/// The most rows on which half precision is tried during a search. Chosen by hand, unmeasured.
 const FEW_ROWS: usize = 256;
 
 fn samples_for(requirement: &Requirement, dataset: &Dataset) -> Vec<Samples> {
@@ -372,7 +377,7 @@ fn samples_for(requirement: &Requirement, dataset: &Dataset) -> Vec<Samples> {
     }
 }
 
-/// A split with some rows of another after its own; they have no dead zone, and weigh one.
+/// Appends rows of another split to a split, with weight one and no dead zone.
 fn with_rows(split: &Split, other: &Split, rows: &[u32]) -> Split {
     let mut extended = Split { grid: Vec::new(), ..split.clone() };
     for (to, from) in extended.columns.iter_mut().zip(&other.columns) {
@@ -388,7 +393,7 @@ fn with_rows(split: &Split, other: &Split, rows: &[u32]) -> Split {
 }
 
 fn rows_at_ends(split: &Split, dataset: &Dataset, input: u16) -> Vec<u32> {
-    // As columns hold them: 1.6 is no f32.
+    // Rounded as the columns' values are: 1.6 is no `f32`.
     let domain = dataset.inputs[usize::from(input)].domain.map(|end| end as f32);
     let column = &split.columns[usize::from(input)];
     let at_end = |row: &u32| domain.contains(&column[*row as usize]);
@@ -404,29 +409,30 @@ fn both_splits(dataset: &Dataset) -> Split {
 }
 
 impl Problem {
-    /// Whether a formula is built as required, and as the grammar allows.
+    /// Returns true if a formula is built as required and nested as the grammar allows.
     pub(super) fn structure_ok(&self, draft: &Draft) -> bool {
         self.checks.structure_ok(draft) && self.grammar.allows_nesting(draft)
     }
 
-    /// Whether a draft of the search has values as required, as far as samples show it.
+    /// Returns true if the values of a draft of the search are as required on the samples.
     pub(super) fn holds_on_samples(&self, draft: &Draft, evaluator: &mut Evaluator) -> bool {
         self.checks.hold_on_samples(&self.natural(draft), evaluator)
     }
 
-    /// Whether a draft of the search is as required, as far as samples show it.
+    /// Returns true if a draft of the search is built as required and its values are so on the
+    /// samples.
     pub(super) fn acceptable_on_samples(&self, draft: &Draft) -> bool {
         self.structure_ok(draft) && self.holds_on_samples(draft, &mut Evaluator::default())
     }
 
-    /// [`Checks::clamped`] of a draft of the search.
+    /// As [`Checks::clamped`], for a draft of the search.
     pub(super) fn clamped(&self, draft: &Draft) -> Option<Draft> {
         let clamped = self.checks.clamped(&self.natural(draft), &self.grammar)?;
         Some(self.over_searched(&clamped))
     }
 
-    /// Whether a formula over the dataset's columns, which is to be shown, is as required, wherever its inputs
-    /// are in the domain.
+    /// Returns true if a formula over the dataset's own columns may be shown: it is built as
+    /// required, holds on the samples, and is not refuted in the domain.
     pub(super) fn may_show(&self, program: &Program) -> bool {
         self.checks.structure_ok(program)
             && self.grammar.allows_nesting(program)
@@ -434,7 +440,7 @@ impl Problem {
             && self.checks.not_refuted(program, &self.dataset)
     }
 
-    /// What is asked of each formula that is shown.
+    /// Returns the questions by which every formula that is shown is judged.
     pub fn questions(&self) -> Questions {
         self.checks.questions(&self.dataset)
     }

@@ -1,4 +1,4 @@
-//! Which of polished formulas win by more than the data's rounding.
+//! The comparison of polished formulas beyond the data's rounding.
 
 use super::{FrontMember, Problem};
 use crate::archive::undominated;
@@ -6,8 +6,9 @@ use crate::eval::{OutputError, Score};
 use crate::fit::{Measure, rounding_errors};
 use crate::program::Arg;
 
-/// By rising cost, those whose error is less than that of every cheaper one, and of every simpler one of the
-/// same cost. Of two below the data's rounding, output by output, neither is less.
+/// Returns, by rising cost, the members whose error is less than that of every cheaper one and of
+/// every simpler one of the same cost. Errors below the data's rounding, output by output, are
+/// equal.
 pub(super) fn beyond_rounding(
     members: Vec<FrontMember>,
     problem: &Problem,
@@ -28,10 +29,11 @@ pub(super) fn beyond_rounding(
     kept.into_iter().map(|(_, member)| member).collect()
 }
 
-/// Roundings that add up in a formula which takes large numbers from one another.
+/// The most roundings by which a law may err: they add up in a formula with differences of large
+/// numbers. Chosen by hand, unmeasured.
 const NEAR: f64 = 64.0;
 
-/// The errors that are rounding, by output, on the search split and the validation split.
+/// The errors that rounding alone makes, by output, on the search split and the validation split.
 pub(super) struct Rounding {
     errors: [Vec<OutputError>; 2],
     has_standard_errors: bool,
@@ -47,15 +49,15 @@ impl Rounding {
         Rounding { errors, has_standard_errors: !dataset.search.standard_errors.is_empty() }
     }
 
-    /// Whether every output errs by hardly more than rounding on the search split: law and formula may round
-    /// differently. Within the standard errors of data no law is known.
+    /// Returns true if every output errs by hardly more than rounding on the search split; law and
+    /// formula may round differently. Data with standard errors reveal no law.
     pub fn covers(&self, score: &Score, measure: Measure) -> bool {
         let mut pairs = score.search.iter().zip(&self.errors[0]);
         !self.has_standard_errors
             && pairs.all(|(error, least)| error.of(measure) <= NEAR * least.of(measure))
     }
 
-    /// A score none of whose errors is below rounding.
+    /// Returns the score with every error raised to at least rounding.
     pub fn at_least(&self, score: &Score) -> Score {
         let raised = |errors: &[OutputError], rounding: &[OutputError]| {
             errors.iter().zip(rounding).map(|(error, least)| larger(error, least)).collect()
@@ -80,7 +82,7 @@ fn larger(error: &OutputError, least: &OutputError) -> OutputError {
     }
 }
 
-/// Instructions and constants, then characters.
+/// Returns the number of instructions and constants, then that of characters.
 fn size(member: &FrontMember) -> (usize, usize) {
     let args = member.program.instrs.iter().flat_map(|instr| instr.args());
     let constants = args.filter(|arg| matches!(arg, Arg::Const(_))).count();

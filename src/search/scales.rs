@@ -1,20 +1,20 @@
-//! Columns as a search sees them: none is larger than a natural magnitude, and none far from zero for its
-//! spread.
+//! The columns as a search sees them: of natural magnitude, and not far from zero for their spread.
 //!
-//! First constants, steps of fits and sums of squares are all of order one, and in 380 … 830 nanometres or 1e9
-//! they would hit nothing but by luck. So inputs and outputs that are not of a natural magnitude are divided by a power of two,
-//! and inputs that lie far from zero are centred before; formulas are searched for over those, and costed and
-//! shown over the columns as they are. A power of two rounds nothing: in whatever unit the data
-//! come, the search is the same.
+//! First constants, steps of fits and sums of squares are all of order one; at 380 … 830 nanometres
+//! or 1e9 they would succeed only by luck. So inputs and outputs that are not of a natural
+//! magnitude are divided by a power of two, and inputs far from zero are centred first. Formulas
+//! are searched for over the scaled columns, but costed and shown over the dataset's own. A power
+//! of two rounds nothing, so the search is the same in whatever unit the data come.
 
 use crate::dataset::{Column, Dataset, Split, output_units, unit};
 use crate::program::Draft;
 use crate::simplify::{InputScale, Placement, rescaled};
 
-/// How far from zero an input's values lie, in half their spread, if they are centred.
+/// The least distance from zero of the middle of an input's domain, in half its width, at which the
+/// input is centred. Chosen by hand, unmeasured.
 const FAR: f64 = 4.0;
 
-/// An input is `centre + unit · scaled`.
+/// The scaling of an input, which is `centre + unit · scaled`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 struct Input {
     centre: f32,
@@ -28,7 +28,7 @@ impl Input {
         if half == 0.0 || middle.abs() < FAR * half {
             return Input { centre: 0.0, unit: unit(column) };
         }
-        // Near the middle, with few digits: the difference is exact.
+        // With few digits, so that differences from it are exact.
         let step = half.log2().floor().exp2();
         let centre = ((middle / step).round() * step) as f32;
         let spread = Column {
@@ -43,7 +43,7 @@ impl Input {
     }
 }
 
-/// How the columns of a dataset are scaled.
+/// The scaling of a dataset's columns.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Scales {
     inputs: Vec<Input>,
@@ -62,13 +62,13 @@ impl Scales {
         }
     }
 
-    /// Whether all columns are searched as they are.
+    /// Returns true if all columns are searched as they are.
     pub fn are_natural(&self) -> bool {
         let natural = |input: &Input| *input == Input { centre: 0.0, unit: 1.0 };
         self.inputs.iter().all(natural) && self.outputs.iter().all(|unit| *unit == 1.0)
     }
 
-    /// The dataset as it is searched.
+    /// Returns the dataset over scaled columns.
     pub fn scaled(&self, dataset: &Dataset) -> Dataset {
         let mut scaled = dataset.clone();
         for split in [&mut scaled.search, &mut scaled.validation] {
@@ -95,7 +95,7 @@ impl Scales {
         }
     }
 
-    /// A formula over scaled columns as one over the columns as they are.
+    /// Rewrites a formula over scaled columns as one over the dataset's own.
     pub fn natural(&self, draft: &Draft, placement: Placement) -> Draft {
         let input =
             |input: &Input| InputScale { offset: -input.centre, exponent: exponent(input.unit) };
@@ -103,7 +103,7 @@ impl Scales {
         rescaled(draft, &self.inputs.iter().map(input).collect::<Vec<_>>(), &outputs, placement)
     }
 
-    /// A formula over the columns as they are as one over scaled columns.
+    /// Rewrites a formula over the dataset's own columns as one over scaled columns.
     pub fn searched(&self, draft: &Draft) -> Draft {
         let input = |input: &Input| InputScale {
             offset: (f64::from(input.centre) / input.unit) as f32,

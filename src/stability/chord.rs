@@ -1,4 +1,4 @@
-//! Functions of one argument as straight lines with an error, on an interval.
+//! Approximates functions of one argument on an interval by straight lines with an error.
 
 use super::form::{AffineForm, Terms};
 use crate::eval::{Arithmetic, Bounds, Double};
@@ -10,12 +10,12 @@ use std::f64::consts::{LN_2, LOG2_E};
 struct Curve<'a> {
     value: &'a dyn Fn(f64) -> f64,
     slope: &'a dyn Fn(f64) -> f64,
-    /// Where the slope is as given; nearly will do.
+    /// The point where the slope has a given value; an approximation will do.
     where_slope: &'a dyn Fn(f64) -> f64,
     convex: bool,
 }
 
-/// `f(x)` for x of the form within the bounds; nothing where no line is known that comes near.
+/// Returns `f(x)` for the values `x` of a form within `bounds`; none where no close line is known.
 pub(super) fn image(
     op: Op,
     x: &AffineForm,
@@ -81,14 +81,14 @@ pub(super) fn image(
         }
         // Unbounded there.
         Op::Rcp | Op::Log2 | Op::Log => None,
-        // Of two arguments, or no curves: the enclosure has forms of their own for them, or none.
+        // Of two arguments, or no curve: the enclosure has its own forms for these, or none.
         Op::Add | Op::Sub | Op::Mul | Op::Div | Op::Neg | Op::Mad | Op::Lerp | Op::Pow => None,
         Op::Abs | Op::Min | Op::Max | Op::Saturate | Op::Rsqrt | Op::Atan2 => None,
         Op::Step | Op::Select | Op::Floor | Op::Fract | Op::Sign => None,
     }
 }
 
-/// `x²`.
+/// Returns `x²`.
 pub(super) fn square(x: &AffineForm, bounds: Interval, terms: &mut Terms) -> AffineForm {
     let (low, high) = (f64::from(bounds.low()), f64::from(bounds.high()));
     let middle = low / 2.0 + high / 2.0;
@@ -96,7 +96,7 @@ pub(super) fn square(x: &AffineForm, bounds: Interval, terms: &mut Terms) -> Aff
     x.mapped(low + high, [-middle * middle, -low * high], magnitude, terms)
 }
 
-/// `|x|`.
+/// Returns `|x|`.
 pub(super) fn absolute(x: &AffineForm, bounds: Interval, terms: &mut Terms) -> AffineForm {
     let (low, high) = (f64::from(bounds.low()), f64::from(bounds.high()));
     if low >= 0.0 {
@@ -109,7 +109,7 @@ pub(super) fn absolute(x: &AffineForm, bounds: Interval, terms: &mut Terms) -> A
     x.mapped(chord, [0.0, -low * (1.0 + chord)], high - low, terms)
 }
 
-/// The larger.
+/// Returns the larger of the two.
 pub(super) fn maximum(a: &AffineForm, b: &AffineForm, terms: &mut Terms) -> AffineForm {
     let difference = a.minus(b, terms).bounds();
     let (low, high) = (f64::from(difference.low()), f64::from(difference.high()));
@@ -119,20 +119,20 @@ pub(super) fn maximum(a: &AffineForm, b: &AffineForm, terms: &mut Terms) -> Affi
     if high <= 0.0 {
         return *b;
     }
-    // b + max(a − b, 0), whose chord is above it, most at the kink.
+    // b + max(a − b, 0): the chord of the maximum is above it, farthest at the kink.
     let chord = high / (high - low);
     let rest = b.mapped(1.0 - chord, [0.0; 2], 0.0, terms);
     a.mapped(chord, [0.0, -chord * low], high - low, terms).plus(&rest, terms)
 }
 
-/// The smaller.
+/// Returns the smaller of the two.
 pub(super) fn minimum(a: &AffineForm, b: &AffineForm, terms: &mut Terms) -> AffineForm {
     let [a, b] = [a, b].map(|form| form.negated(terms));
     maximum(&a, &b, terms).negated(terms)
 }
 
 impl Curve<'_> {
-    /// The line of least error: parallel to the chord, halfway to the tangent.
+    /// Returns the line of least error: parallel to the chord, halfway to the tangent.
     fn image(&self, x: &AffineForm, low: f64, high: f64, terms: &mut Terms) -> Option<AffineForm> {
         let (first, last) = ((self.value)(low), (self.value)(high));
         let chord = match high - low {
@@ -142,7 +142,7 @@ impl Curve<'_> {
         if !(first.is_finite() && last.is_finite() && chord.is_finite()) {
             return None;
         }
-        // Any tangent bounds the function, that at a point of the interval well.
+        // Any tangent bounds the function, one that touches it within the interval closely.
         let touch = (self.where_slope)(chord);
         let touch = if touch.is_nan() { low / 2.0 + high / 2.0 } else { touch.clamp(low, high) };
         let (value, slope) = ((self.value)(touch), (self.slope)(touch));
@@ -164,7 +164,7 @@ impl Curve<'_> {
     }
 }
 
-/// Bounds of the derivative of a function that is neither convex nor concave everywhere.
+/// Bounds the derivative of a function neither convex nor concave everywhere; none for others.
 fn derivative(op: Op, x: Interval) -> Option<Interval> {
     let of = |op: Op, x: Interval| Bounds.apply(op, [x; 4]);
     let one = Interval::new(1.0, 1.0);
@@ -184,7 +184,7 @@ fn derivative(op: Op, x: Interval) -> Option<Interval> {
     }
 }
 
-/// The line through the middle whose slope is the middle of the derivative's bounds.
+/// Returns the line through the middle whose slope is the middle of the derivative's bounds.
 fn by_derivative(
     op: Op,
     derivative: Interval,

@@ -1,17 +1,18 @@
-//! Inputs at which claims fail, by looking.
+//! Searches for counterexamples: inputs at which claims fail.
 
 use super::{Property, points};
 use crate::num::Interval;
 use crate::program::Program;
 
-/// Inputs tried on a grid over the domain, its corners and edges among them.
+/// The approximate number of inputs tried, on a grid over the domain with its corners and edges.
+/// Chosen by hand, unmeasured.
 const GRID: f64 = 4096.0;
 
-/// Steps by which a failure found is made worse.
+/// The most rounds of steps from a failure found to a worse one. Chosen by hand, unmeasured.
 const CLIMBS: usize = 60;
 
-/// For each claim an input that refutes it, if one is found, and the value there: a number where
-/// some number fails, the worst nearby.
+/// Returns for each claim an input that refutes it, if one is found, and the output there: the
+/// worst nearby, and a number rather than NaN where a number fails, too.
 pub(super) fn search(
     program: &Program,
     domain: &[Interval],
@@ -40,7 +41,7 @@ pub(super) fn search(
     finished.collect()
 }
 
-/// More is worse, and every number that fails is worse than NaN: it says more.
+/// Ranks a value, more being worse. Every number that fails is worse than NaN, since it says more.
 fn rank(claim: &Property, value: f32, slack: f64) -> f64 {
     let excess = claim.excess(value, slack);
     if value.is_nan() { f64::MIN_POSITIVE } else { excess }
@@ -55,7 +56,7 @@ fn axis(side: Interval, count: usize) -> Vec<f32> {
     (0..count).map(|i| (at(i) as f32).clamp(side.low(), side.high())).collect()
 }
 
-/// A worse failure beside one, coordinate by coordinate, with steps that shrink.
+/// Climbs from a failure to a worse one, coordinate by coordinate, with steps that shrink.
 fn climbed(
     program: &Program,
     domain: &[Interval],

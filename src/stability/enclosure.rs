@@ -1,4 +1,4 @@
-//! Programs on boxes: every value that each instruction can give there.
+//! Encloses programs on boxes: bounds every value that each instruction can give there.
 
 use super::chord;
 use super::form::{AffineForm, Terms};
@@ -8,16 +8,16 @@ use crate::num::Interval;
 use crate::op::{MAX_ARITY, Op};
 use crate::program::{Arg, Program};
 
-/// Bounds of a value, and how it varies over the box.
+/// The bounds of a value, and how it varies over the box.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Enclosed {
     pub bounds: Interval,
-    /// Describes the value wherever that is a number; none where it may be infinite.
+    /// Describes the value wherever that is a number; none if it may be infinite.
     form: Option<AffineForm>,
 }
 
-/// Evaluates programs on boxes: interval arithmetic rounded outward, narrowed by affine forms, whose
-/// excess falls with the square of the box's width.
+/// Evaluates programs on boxes by interval arithmetic, rounded outward and narrowed by affine
+/// forms, whose overestimate falls with the square of the box's width.
 #[derive(Clone, Debug)]
 pub struct Enclosure {
     rounding: Rounding,
@@ -27,15 +27,15 @@ pub struct Enclosure {
 }
 
 impl Enclosure {
-    /// Returns an enclosure by this rounding.
+    /// Makes an enclosure for a rounding, with nothing evaluated yet.
     pub fn new(rounding: Rounding) -> Enclosure {
         Enclosure { rounding, inputs: Vec::new(), results: Vec::new(), terms: Terms::default() }
     }
 
-    /// Encloses every instruction of a program where each input is any number of its interval.
+    /// Encloses every instruction of a program, each input being any number of its interval.
     ///
     /// # Panics
-    /// If `domain` has not one interval for each input.
+    /// If `domain` does not have one interval for each input.
     pub fn evaluate(&mut self, program: &Program, domain: &[Interval]) {
         assert_eq!(domain.len(), program.inputs, "one interval for each input");
         self.inputs.clear();
@@ -57,12 +57,12 @@ impl Enclosure {
         }
     }
 
-    /// What an argument or output can be on the box last evaluated.
+    /// Returns the bounds of an argument or output on the box last evaluated.
     pub fn bounds(&self, program: &Program, arg: Arg) -> Interval {
         self.value(program, arg).bounds
     }
 
-    /// How far an argument or output varies with an input, where that is known.
+    /// Returns how far an argument or output varies with an input across the box; 0 if unknown.
     pub(super) fn slope(&self, program: &Program, arg: Arg, input: usize) -> f64 {
         let [form, input] = [self.value(program, arg), self.inputs[input]].map(|value| value.form);
         form.zip(input).map_or(0.0, |(form, input)| form.slope(&input, &self.terms))
@@ -85,16 +85,16 @@ impl Enclosure {
 }
 
 impl Enclosed {
-    /// What both bounds and form allow.
+    /// Makes the value that both the bounds and the form allow.
     fn new(rounding: Rounding, bounds: Interval, form: Option<AffineForm>) -> Enclosed {
         let form = form.filter(AffineForm::is_finite);
         let bounds = form.map_or(bounds, |form| bounds.narrowed(form.bounds()));
-        // Where the form knows less, what it says of others is worth little.
+        // Where the bounds are much narrower than the form, its terms are worth little.
         let plain = AffineForm::around(bounds);
         let form = match (form, plain) {
             (Some(form), Some(plain)) if plain.radius() > form.radius() / 2.0 => Some(form),
             (Some(form), Some(plain)) => Some(plain.in_place_of(&form)),
-            // Of a jump, two readers may see different sides.
+            // Two readers may see different sides of a jump.
             (None, Some(plain)) if rounding == Rounding::Gpu => Some(plain.unshared()),
             (_, plain) => plain,
         };
@@ -109,7 +109,7 @@ struct Step<'a> {
 }
 
 impl Step<'_> {
-    /// What an operation gives; `square` where its first two arguments are one.
+    /// Applies an operation; `square` is true if its first two arguments are the same.
     fn apply(&mut self, op: Op, arguments: [Enclosed; MAX_ARITY], square: bool) -> Enclosed {
         let [a, b, c, d] = arguments;
         match op {
@@ -160,14 +160,14 @@ impl Step<'_> {
         }
     }
 
-    /// An operation that is not made of others.
+    /// Applies an operation that is not composed of others.
     fn single(&mut self, op: Op, arguments: [Enclosed; MAX_ARITY], square: bool) -> Enclosed {
         let [a, b, ..] = arguments;
         let bounds = bounds(self.rounding, op, &arguments, square);
         let form = self.form(op, &arguments, square).map(|form| {
             let reach = f64::from(bounds.narrowed(form.bounds()).abs().high());
             let error = self.rounding.error(op, arguments.map(|argument| argument.bounds));
-            // The value before rounding may reach a little further.
+            // The value before rounding may reach a little farther.
             form.widened(error.of(reach + error.of(reach)))
         });
         let form = form.filter(|_| describes(self.rounding, op, a.bounds, b.bounds));
@@ -194,7 +194,7 @@ impl Step<'_> {
         self.hull(&fused, &sum)
     }
 
-    /// The operation without its rounding, as an affine form.
+    /// Returns the operation's result before rounding, as an affine form.
     fn form(
         &mut self,
         op: Op,
@@ -246,12 +246,12 @@ impl Step<'_> {
             | Op::Acos
             | Op::Atan
             | Op::Tanh => chord::image(op, a?, x, terms),
-            // Those that are made of others, and those that jump.
+            // Composed of others, or with jumps.
             Op::Pow | Op::Lerp | Op::Atan2 | Op::Step | Op::Select | Op::Sign => None,
         }
     }
 
-    /// `yes` where a < b, else `no`.
+    /// Returns `yes` where a < b, else `no`.
     fn select(&mut self, [a, b]: [Enclosed; 2], yes: Enclosed, no: Enclosed) -> Enclosed {
         let nan = a.bounds.may_be_nan() || b.bounds.may_be_nan();
         let difference = match (&a.form, &b.form) {
@@ -270,7 +270,7 @@ impl Step<'_> {
 
     fn hull(&mut self, a: &Enclosed, b: &Enclosed) -> Enclosed {
         let form = match (&a.form, &b.form) {
-            // Of a jump, two readers may see different sides.
+            // Two readers may see different sides of a jump.
             (Some(first), Some(second)) => Some(first.hull(second, self.terms).unshared()),
             _ => None,
         };
@@ -278,17 +278,17 @@ impl Step<'_> {
     }
 }
 
-/// The whole part that all numbers of an interval have.
+/// Returns the floor of all numbers of an interval; none if they differ in it.
 fn whole(x: Interval) -> Option<f64> {
     (x.low().floor() == x.high().floor()).then(|| f64::from(x.low().floor()))
 }
 
-/// Whether the operation with its stated error is all that can happen.
+/// Returns true if the exact operation and its stated error cover every possible result.
 fn describes(rounding: Rounding, op: Op, a: Interval, b: Interval) -> bool {
     let reach = a.abs().high();
     let gpu = rounding == Rounding::Gpu;
     match op {
-        // On GPUs a tangent is a quotient, which is looked at in two steps.
+        // On GPUs a tangent is a quotient, whose operations are asked one by one.
         Op::Sin | Op::Cos | Op::Tan => rounding.promises(op, a),
         Op::Min | Op::Max => !gpu || !a.may_be_nan() && !b.may_be_nan(),
         Op::Saturate => !gpu || !a.may_be_nan(),
@@ -303,7 +303,7 @@ fn describes(rounding: Rounding, op: Op, a: Interval, b: Interval) -> bool {
 
 fn bounds(rounding: Rounding, op: Op, arguments: &[Enclosed; MAX_ARITY], square: bool) -> Interval {
     let [a, b, c, d] = arguments.map(|argument| argument.bounds);
-    // Of two equal signs, a product is that of the absolute values.
+    // A square is the product of the absolute values.
     let product = matches!(op, Op::Mul | Op::Mad);
     let (a, b) = if product && square && !a.is_empty() { (a.abs(), a.abs()) } else { (a, b) };
     rounding.bounds(op, [a, b, c, d])

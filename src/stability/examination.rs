@@ -1,4 +1,4 @@
-//! Everything that is looked into of one formula.
+//! Everything that is examined of one formula.
 
 use super::{
     Extent, Precision, Questions, Smoothness, Spread, Tried, Verdict, extremes, half, mixed,
@@ -6,35 +6,37 @@ use super::{
 };
 use crate::program::{Program, effective};
 
-/// All that `lgp check` says of a formula.
+/// Everything that `lgp check` says of a formula.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Examination {
-    /// The effective code: what the instructions of everything below are of.
+    /// The effective code, whose instructions the other fields index.
     pub program: Program,
     /// The verdict on its claims.
     pub verdict: Verdict,
-    /// Its losses in single precision.
+    /// The losses of single precision.
     pub single: Precision,
-    /// Its losses in half precision.
+    /// The losses of half precision.
     pub half: Precision,
-    /// The instructions that must stay in single precision for halves to err by `half_bound` at most;
-    /// none where nothing helps.
+    /// The instructions that must stay in single precision for the error to be at most
+    /// `half_bound`; none if not even all of them are enough.
     pub stay_single: Option<Vec<usize>>,
-    /// The absolute error up to which half precision is good enough.
+    /// The largest absolute error allowed in half precision.
     pub half_bound: f64,
-    /// Where that was tried.
+    /// The extent of the trial of `stay_single`.
     pub half_tried: Tried,
-    /// How far results spread under the liberties of compilers.
+    /// The largest differences that the liberties of compilers make.
     pub spreads: Vec<Spread>,
-    /// Outputs at the edges of the domain and beyond.
+    /// The outputs' extents at the edges of the domain, beyond, at zero and among denormals.
     pub extremes: Vec<Extent>,
-    /// Kinks, jumps and directions.
+    /// Jumps, kinks and trends.
     pub smoothness: Smoothness,
 }
 
 impl Examination {
+    /// Examines a program; `half_bound` is the largest absolute error allowed in half precision.
+    ///
     /// # Panics
-    /// If the program has other numbers of inputs and outputs than the questions.
+    /// If the program does not have as many inputs and outputs as the questions.
     pub fn of(program: &Program, questions: &Questions, half_bound: f64) -> Examination {
         let program = effective(program);
         let domain = &questions.domain;

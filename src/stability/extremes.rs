@@ -1,17 +1,17 @@
-//! What a formula gives at the ends of its domain, and just outside.
+//! A formula's outputs at the ends of its domain, just outside, at zero and among denormals.
 
 use super::points;
 use crate::num::Interval;
 use crate::program::Program;
 use serde::Serialize;
 
-/// Where inputs go although nobody meant them to.
+/// A kind of place where inputs go although nobody meant them to.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Extreme {
     /// The corners, edges and faces of the domain.
     Edge,
-    /// One ulp, or 1e-7 of the width, outside: as a normalised vector's cosine may be.
+    /// One ulp, or 1e-7 of the width, outside, as a normalised vector's cosine may be.
     JustOutside,
     /// 5 % of the width outside.
     Outside,
@@ -24,7 +24,7 @@ pub enum Extreme {
 const EXTREMES: [Extreme; 5] =
     [Extreme::Edge, Extreme::JustOutside, Extreme::Outside, Extreme::Zero, Extreme::Denormal];
 
-/// A value, and where.
+/// A value and the input that gives it.
 #[derive(Clone, Debug, PartialEq)]
 pub struct At {
     /// The value.
@@ -33,25 +33,25 @@ pub struct At {
     pub input: Vec<f32>,
 }
 
-/// What an output gives at a kind of place.
+/// An output's extent at a kind of place.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Extent {
-    /// The kind of points.
+    /// The kind of place.
     pub place: Extreme,
     /// The index of the output.
     pub output: usize,
-    /// The least and the largest number; none where there is none.
+    /// The least finite value; none if no value is finite.
     pub least: Option<At>,
-    /// The largest finite value.
+    /// The largest finite value; none if no value is finite.
     pub largest: Option<At>,
-    /// Where it is no finite number.
+    /// The first value that is infinite or NaN; none if every value is finite.
     pub not_finite: Option<At>,
 }
 
-/// Each output's extent at each place that the domain has.
+/// Returns each output's extent at each kind of place that the domain has.
 ///
 /// # Panics
-/// If `domain` has not one interval for each input.
+/// If `domain` does not have one interval for each input.
 pub fn extremes(program: &Program, domain: &[Interval]) -> Vec<Extent> {
     let mut extents = Vec::new();
     for place in EXTREMES {
@@ -76,14 +76,14 @@ pub fn extremes(program: &Program, domain: &[Interval]) -> Vec<Extent> {
     extents
 }
 
-/// Points with a special value on one side, and on all.
+/// Returns points with a special value for one input, and for all of them.
 fn points_at(place: Extreme, domain: &[Interval]) -> Vec<Vec<f32>> {
     let special: Vec<Vec<f32>> = domain.iter().map(|&side| special(place, side)).collect();
     let ordinary: Vec<Vec<f32>> = domain
         .iter()
         .map(|side| vec![side.low(), side.low() / 2.0 + side.high() / 2.0, side.high()])
         .collect();
-    // Beyond six inputs only the corners that all share.
+    // With more than six inputs, combinations are too many: the others stay at their low ends.
     let few = domain.len() > 6;
     let mut points =
         if few || special.iter().any(Vec::is_empty) { Vec::new() } else { points::all(&special) };

@@ -1,47 +1,50 @@
-//! Affine forms: what a value owes to each input of a box and to each earlier instruction's
-//! curvature, and what is left.
+//! Affine forms: the shares of a value that depend on each input of a box and on each earlier
+//! instruction's curvature, and what is left.
 
 use crate::num::{Interval, enclose};
 use std::ops::Range;
 
-/// Inputs whose share is kept apart, at most: a product looks at each pair of them.
+/// The most inputs with terms of their own: products pair them all. Chosen by hand, unmeasured.
 const INPUTS: usize = 24;
 
-/// The same, and instructions; what others owe is left over.
+/// The most inputs and instructions with terms of their own; the others' shares go into `rest`.
+/// Chosen by hand, unmeasured.
 const TERMS: usize = 96;
 
-/// What `f64` arithmetic on forms may lose, relative to the magnitudes that met: a few hundred
-/// roundings of 2⁻⁵³.
+/// The rounding error of `f64` arithmetic on forms, relative to the operands' magnitudes: a few
+/// hundred roundings of 2⁻⁵³.
 const LOSS: f64 = 1e-13;
 
-/// The terms of all forms on one box, one form's after the other's: a form is as long as what it
-/// depends on is many, and made of others without moving them.
+/// The terms of all forms on one box, one form after another: each has only the terms it needs, and
+/// is made from others without moving them.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Terms {
     values: Vec<f64>,
-    /// Terms given out: first those of inputs.
+    /// The number of terms given to inputs, which are the first.
     inputs: usize,
+    /// The number of terms given to inputs and instructions.
     used: usize,
 }
 
-/// `center + Σ terms[k]·u[k] ± fresh ± rest`, all `u[k]` in [−1, 1]: first the places of the inputs
-/// within the box, then for instructions by how much they are not the straight line that stands for
-/// them (Stolfi & de Figueiredo, "Self-Validated Numerical Methods and Applications", 1997, chapter 3).
-/// `fresh` is that of the instruction at hand; `rest` is rounding, which two readers of one result need
-/// not share, since a compiler may compute it twice.
+/// `center + Σ terms[k]·u[k] ± fresh ± rest`, all `u[k]` in [−1, 1]: first the inputs' positions in
+/// the box, then the instructions' deviations from the straight lines that stand for them (Stolfi &
+/// de Figueiredo, "Self-Validated Numerical Methods and Applications", 1997, chapter 3). `fresh` is
+/// the deviation of the current instruction; `rest` is rounding, which two readers of one result
+/// need not share, since a compiler may compute it twice.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct AffineForm {
     center: f64,
     fresh: f64,
     rest: f64,
-    /// Where its terms are, and the sum of their magnitudes.
+    /// The position of its terms in [`Terms`].
     start: usize,
     count: usize,
+    /// The sum of the terms' magnitudes.
     shared: f64,
 }
 
 impl Terms {
-    /// For another box.
+    /// Clears the terms, for another box.
     pub fn clear(&mut self) {
         self.values.clear();
         (self.inputs, self.used) = (0, 0);
@@ -51,14 +54,14 @@ impl Terms {
         &self.values[form.range()]
     }
 
-    /// The form with the terms from `start` on, which were put last.
+    /// Gives a form the terms from `start` on, which were added last.
     fn finished(&self, start: usize, form: AffineForm) -> AffineForm {
         let terms = &self.values[start..];
         AffineForm { start, count: terms.len(), shared: magnitudes(terms), ..form }
     }
 }
 
-/// The sum of the absolute values, by partial sums, so that they go into registers.
+/// Returns the sum of the absolute values; partial sums let it use vector registers.
 fn magnitudes(terms: &[f64]) -> f64 {
     let mut sums = [0.0; 8];
     let chunks = terms.chunks_exact(8);
@@ -71,7 +74,7 @@ fn magnitudes(terms: &[f64]) -> f64 {
 }
 
 impl AffineForm {
-    /// Any value of an interval; nothing where that is not bounded.
+    /// Makes the form of any value of an interval; none if that is empty or unbounded.
     pub fn around(bounds: Interval) -> Option<AffineForm> {
         let (low, high) = (f64::from(bounds.low()), f64::from(bounds.high()));
         (low.is_finite() && high.is_finite() && low <= high).then(|| AffineForm {
@@ -84,7 +87,7 @@ impl AffineForm {
         })
     }
 
-    /// An input; those of a box come before its instructions.
+    /// Makes the form of an input; a box's inputs must come before its instructions.
     pub fn input(bounds: Interval, terms: &mut Terms) -> Option<AffineForm> {
         let form = AffineForm::around(bounds)?;
         if form.fresh == 0.0 || terms.inputs >= INPUTS {
@@ -94,7 +97,7 @@ impl AffineForm {
         Some(form.settled(terms))
     }
 
-    /// As the result of an instruction, whose curvature later ones can refer to.
+    /// Makes it the result of an instruction, to whose curvature later ones can refer.
     #[must_use]
     pub fn of_instruction(self, terms: &mut Terms) -> AffineForm {
         match self.fresh {
@@ -104,6 +107,7 @@ impl AffineForm {
         }
     }
 
+    /// Turns `fresh` into a new term.
     fn settled(self, terms: &mut Terms) -> AffineForm {
         let start = terms.values.len();
         terms.values.extend_from_within(self.range());
@@ -113,7 +117,7 @@ impl AffineForm {
         terms.finished(start, AffineForm { fresh: 0.0, ..self }).padded(self.center.abs())
     }
 
-    /// All that is fresh as what no two readers share.
+    /// Moves `fresh` into `rest`, as if no two readers shared it.
     #[must_use]
     pub fn unshared(mut self) -> AffineForm {
         self.rest += self.fresh;
@@ -121,7 +125,7 @@ impl AffineForm {
         self
     }
 
-    /// In place of another form of the same values: what its readers need not share, these neither.
+    /// Replaces another form of the same values: readers need not share that one's `rest`, either.
     #[must_use]
     pub fn in_place_of(self, other: &AffineForm) -> AffineForm {
         AffineForm { fresh: self.fresh + other.rest, rest: other.rest, ..self }
@@ -131,12 +135,12 @@ impl AffineForm {
         self.start..self.start + self.count
     }
 
-    /// How far the values reach from the centre.
+    /// Returns how far the values reach from the centre.
     pub fn radius(&self) -> f64 {
         self.shared + self.fresh + self.rest
     }
 
-    /// What the place of an input changes, given the input's own form.
+    /// Returns the magnitude of an input's term, given the input's own form; 0 if there is none.
     pub fn slope(&self, input: &AffineForm, terms: &Terms) -> f64 {
         let own = input.count.checked_sub(1);
         own.and_then(|own| terms.of(self).get(own)).map_or(0.0, |term| term.abs())
@@ -146,7 +150,7 @@ impl AffineForm {
         self.center.abs() + self.radius()
     }
 
-    /// Whether it says anything: differences of large numbers overflow.
+    /// Returns true if its reach is finite: differences of large numbers may overflow.
     pub fn is_finite(&self) -> bool {
         self.magnitude().is_finite()
     }
@@ -157,6 +161,7 @@ impl AffineForm {
         enclose(self.center - radius, self.center + radius)
     }
 
+    /// Adds the rounding error of `f64` arithmetic on operands of a magnitude.
     fn padded(self, magnitude: f64) -> AffineForm {
         self.widened(magnitude * LOSS)
     }
@@ -185,7 +190,7 @@ impl AffineForm {
         self.with(other, -1.0, terms)
     }
 
-    /// The other added, times a sign.
+    /// Adds the other, times a sign.
     fn with(&self, other: &AffineForm, sign: f64, terms: &mut Terms) -> AffineForm {
         let start = terms.values.len();
         terms.values.extend_from_within(self.range());
@@ -201,8 +206,8 @@ impl AffineForm {
         terms.finished(start, form).padded(self.magnitude() + other.magnitude())
     }
 
-    /// `factor·self` plus anything in `[low, high]`; `magnitude` is that of the numbers from which
-    /// they were computed.
+    /// Returns `factor·self` plus any number in `[low, high]`; `magnitude` is that of the numbers
+    /// from which these bounds were computed.
     #[must_use]
     pub fn mapped(
         &self,
@@ -239,7 +244,7 @@ impl AffineForm {
         let of_inputs =
             |form: &AffineForm| &before[form.start..form.start + form.count.min(inputs)];
         let (center, fresh) = quadratic(of_inputs(a), of_inputs(b));
-        // Of the product of both sums, that of the inputs' terms is taken apart.
+        // The product of the inputs' terms is bounded apart from that of the other terms.
         let others = a.shared * b.shared - magnitudes(of_inputs(a)) * magnitudes(of_inputs(b));
         let (a_sum, b_sum) = (a.center.abs() + a.shared, b.center.abs() + b.shared);
         let form = AffineForm {
@@ -251,7 +256,7 @@ impl AffineForm {
         terms.finished(start, form).padded(a.magnitude() * b.magnitude())
     }
 
-    /// Values of either.
+    /// Returns a form of the values of either.
     #[must_use]
     pub fn hull(&self, other: &AffineForm, terms: &mut Terms) -> AffineForm {
         let apart = self.minus(other, terms).magnitude() / 2.0;
@@ -259,8 +264,8 @@ impl AffineForm {
     }
 }
 
-/// Centre and radius of the product of two sums of terms: a square of u is in [0, 1], a product of two
-/// different ones in [−1, 1].
+/// Returns the centre and radius of the product of two sums of terms: the square of a `u` is in
+/// [0, 1], the product of two different ones in [−1, 1].
 fn quadratic(a: &[f64], b: &[f64]) -> (f64, f64) {
     let at = |terms: &[f64], i: usize| terms.get(i).copied().unwrap_or(0.0);
     let (mut center, mut radius) = (0.0, 0.0);

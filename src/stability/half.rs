@@ -1,4 +1,4 @@
-//! Half precision: where it is tried, and what it errs by.
+//! Half precision: the points at which it is tried, and its errors.
 
 use super::points;
 use super::variants::Variant;
@@ -9,26 +9,27 @@ use crate::program::{Arg, Program};
 use half::f16;
 use serde::Serialize;
 
-/// The least half with all its digits, 2⁻¹⁴.
+/// The least normal half, 2⁻¹⁴.
 pub(super) const MIN_NORMAL: f64 = 6.103_515_625e-5;
 
-/// Denormal halves as they are, and flushed to zero: a GPU may do either.
+/// Halves with denormals kept, and flushed to zero: a GPU may do either.
 pub(super) const ARITHMETICS: [Half; 2] =
     [Half { flush_to_zero: false }, Half { flush_to_zero: true }];
 
-/// Where half precision was tried.
+/// The extent of a trial of half precision.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 pub struct Tried {
     /// The number of points that were tried.
     pub points: usize,
-    /// Whether these are all inputs in the domain that halves hold, so that the worst of them is the
-    /// worst there is.
+    /// True if these are all inputs in the domain that halves hold, so that the worst of them is
+    /// the worst there is.
     pub exhaustive: bool,
 }
 
 /// Inputs that halves hold.
 pub(super) struct Points {
     pub points: Vec<Vec<f32>>,
+    /// True if these are all such inputs in the domain.
     pub exhaustive: bool,
 }
 
@@ -38,11 +39,11 @@ impl Points {
     }
 }
 
-/// Combinations of halves that are all tried: those of one input are 63,488 at most.
+/// The most combinations of halves to try all of: enough for one input's, 63,488 at most.
 const MOST: usize = 1 << 16;
 
-/// All points of a domain that halves hold, if they are not too many; else some, about as many as asked
-/// for, among them zeros, denormals and the neighbours of the domain's ends.
+/// Returns all points of a domain that halves hold if they are at most [`MOST`], else about
+/// `total`, among them zeros, denormals and the neighbours of the domain's ends.
 pub(super) fn points(domain: &[Interval], total: usize) -> Points {
     let counts = domain.iter().map(|&side| halves(side).count().max(1));
     let count = counts.fold(1usize, usize::saturating_mul);
@@ -67,8 +68,10 @@ pub(super) fn points(domain: &[Interval], total: usize) -> Points {
     Points { points, exhaustive: false }
 }
 
-/// The other inputs at their ends and in the middle: each by itself where they are few, else together.
+/// Returns points with the other inputs at their ends and in the middle: in all combinations if
+/// inputs are few, else all alike.
 fn elsewhere(axes: &[Vec<f32>], along: usize) -> Vec<Vec<f32>> {
+    // Chosen by hand, unmeasured.
     const FEW: usize = 3;
     let three = |axis: &Vec<f32>| vec![axis[0], axis[axis.len() / 2], axis[axis.len() - 1]];
     let others: Vec<Vec<f32>> = axes.iter().map(three).collect();
@@ -79,7 +82,7 @@ fn elsewhere(axes: &[Vec<f32>], along: usize) -> Vec<Vec<f32>> {
     points::all(&others.iter().enumerate().map(one).collect::<Vec<_>>())
 }
 
-/// The finite halves of an interval, both zeros among them, from below.
+/// Returns the finite halves of an interval, with both zeros, in ascending order.
 fn halves(side: Interval) -> impl Iterator<Item = f32> {
     const FINITE: u16 = 0x7c00;
     let negative = (0..FINITE).rev().map(|bits| f16::from_bits(0x8000 | bits));
@@ -87,13 +90,13 @@ fn halves(side: Interval) -> impl Iterator<Item = f32> {
     all.filter(move |&x| side.contains(x.into()))
 }
 
-/// Of a side that holds no half, the half that stands for it.
+/// Returns the halves of a side; if it holds none, the half nearest to its low end.
 fn all_or_nearest(side: Interval) -> Vec<f32> {
     let all: Vec<f32> = halves(side).collect();
     if all.is_empty() { vec![rounded(side.low())] } else { all }
 }
 
-/// What halves make of numbers of a side, where it holds that.
+/// Rounds an axis's points to halves and keeps those within the side; if none is, the first.
 fn halves_of(mut axis: Vec<f32>, side: Interval) -> Vec<f32> {
     axis.iter_mut().for_each(|x| *x = rounded(*x));
     let nearest = axis.first().copied();
@@ -103,7 +106,7 @@ fn halves_of(mut axis: Vec<f32>, side: Interval) -> Vec<f32> {
     if axis.is_empty() { nearest.into_iter().collect() } else { axis }
 }
 
-/// The ends of a side and their neighbours, zeros, and the ends of the denormal halves.
+/// Returns a side's ends, the halves next to them, zeros, and the ends of the denormal halves.
 fn special(side: Interval) -> Vec<f32> {
     let mut special = vec![side.low(), side.high()];
     special.extend(halves(side).take(3));
@@ -120,9 +123,9 @@ pub(super) fn rounded(x: f32) -> f32 {
     f32::from(f16::from_f32(x))
 }
 
-/// The outputs at a point, in half precision but for the instructions marked (none where the list
-/// ends). A half that meets single precision is taken as it is, a single that meets halves is
-/// rounded; outputs are halves.
+/// Returns the outputs at a point, in half precision except for the instructions marked in `single`
+/// (none beyond its end). Single precision takes a half as it is, half precision rounds a single;
+/// outputs are halves.
 pub(super) fn outputs(
     program: &Program,
     single: &[bool],
@@ -154,14 +157,14 @@ pub(super) fn outputs(
     program.outputs.iter().map(|arg| value(arg).into()).collect()
 }
 
-/// A program as it may be compiled, in halves but for some instructions.
+/// A program as it may be compiled, in half precision except for some instructions.
 pub(super) struct Mixed {
-    /// Each with the marks of what is in single.
+    /// The variants, each with the marks of its instructions in single precision.
     variants: Vec<(Program, Vec<bool>)>,
 }
 
 impl Mixed {
-    /// `single` marks instructions of the program as written.
+    /// Makes it of variants of a program; `single` marks instructions of the program as written.
     pub fn new(variants: &[Variant], single: &[bool]) -> Mixed {
         let marked = |variant: &Variant| {
             let marks = variant.origin.iter().map(|&i| single.get(i).copied().unwrap_or(false));
@@ -170,7 +173,7 @@ impl Mixed {
         Mixed { variants: variants.iter().map(marked).collect() }
     }
 
-    /// The outputs, however it is compiled and whatever becomes of denormals.
+    /// Returns the outputs of every variant, with denormals kept and flushed.
     pub fn outputs<'a>(&'a self, point: &'a [f32]) -> impl Iterator<Item = Vec<f64>> + 'a {
         let each = |(program, single): &'a (Program, Vec<bool>)| {
             ARITHMETICS.map(|arithmetic| outputs(program, single, arithmetic, point))
@@ -178,8 +181,8 @@ impl Mixed {
         self.variants.iter().flat_map(each)
     }
 
-    /// The largest error of any output, absolute; infinite where one is no number in halves only. What
-    /// is no number in `f64` either is no fault of halves.
+    /// Returns the largest absolute error of any output; infinite if one is finite in `f64` only.
+    /// Outputs that are not finite in `f64` do not count.
     pub fn error(&self, point: &[f32], exact: &[f64]) -> f64 {
         let worst_of = |found: Vec<f64>| {
             let errors = found.iter().zip(exact).map(|(found, exact)| error(*found, *exact));
@@ -197,13 +200,13 @@ fn error(found: f64, exact: f64) -> f64 {
     }
 }
 
-/// The outputs in `f64`.
+/// Returns the outputs in `f64`.
 pub(super) fn exact(program: &Program, point: &[f32]) -> Vec<f64> {
     Double.evaluate(program, &point.iter().map(|&x| x.into()).collect::<Vec<_>>())
 }
 
-/// The largest error of a program in half precision at the given points, fused or not, denormals
-/// flushed or not.
+/// Returns the largest absolute error of a program in half precision at the given points, rounded
+/// to halves, whether `mad` is fused or not, denormals kept or flushed.
 pub fn half_error<'a>(program: &Program, inputs: impl Iterator<Item = &'a [f32]>) -> f64 {
     let mixed = Mixed::new(&Variant::fused_or_not(program), &[]);
     let worst_of = |point: &[f32]| {

@@ -1,4 +1,4 @@
-//! Programs in halves and singles: what no half holds, and the least that must stay in single.
+//! Half and single precision mixed: values that no half holds, instructions that must stay single.
 
 use super::blame::traced;
 use super::half::{Mixed, Points, Tried, exact, points, rounded};
@@ -7,23 +7,24 @@ use crate::num::Interval;
 use crate::program::{Arg, Program, use_counts};
 use half::f16;
 
-/// Points at which a program is tried, at least.
+/// The approximate number of points tried, if not all are. Chosen by hand, unmeasured.
 pub(super) const POINTS: usize = 8192;
 
-/// Points on which sets are tried, before all.
+/// The number of points at which a set is tried before all. Chosen by hand, unmeasured.
 const FEW: usize = 48;
 
-/// What becomes no number, or nothing, as a half.
+/// A value that no half holds: it becomes infinite or NaN, or vanishes.
 #[allow(missing_docs, reason = "the variants' docs name their fields")]
 #[derive(Clone, Debug, PartialEq)]
 pub enum Unheld {
-    /// A constant that is infinite as a half, or 0 although it is not; none where it is an output.
+    /// A constant `value` that is infinite as a half, or 0 although it is not; `instruction` reads
+    /// it, or none if it is an output.
     Constant { value: f32, instruction: Option<usize> },
-    /// An argument of the function.
+    /// An end `value` of the domain of an `input` that is infinite as a half.
     Input { input: usize, value: f32 },
-    /// An instruction's result that is a half or read as one, the worst found and where.
+    /// An instruction's result, kept or read as a half: the largest `value`, found at `input`.
     Result { instruction: usize, value: f64, input: Vec<f32> },
-    /// An output that is a number, but none in halves.
+    /// An output that is finite as `exact`, but not in halves, as `found`, at `input`.
     Output { output: usize, found: f64, exact: f64, input: Vec<f32> },
 }
 
@@ -35,11 +36,12 @@ fn is_lost(constant: f32) -> bool {
     overflows(constant.into()) || constant != 0.0 && rounded(constant) == 0.0
 }
 
-/// What no half holds of a program in half precision but for some instructions: nothing that is a
-/// number may be infinite as a half, no constant 0 that is not.
+/// Returns a value that no half holds in a program in half precision except for the instructions
+/// `stay_single`: a finite one that is infinite as a half, or a constant that is 0 only as a half.
+/// None if none is found.
 ///
 /// # Panics
-/// If `domain` has not one interval for each input.
+/// If `domain` does not have one interval for each input.
 pub fn unheld(program: &Program, domain: &[Interval], stay_single: &[usize]) -> Option<Unheld> {
     let single: Vec<bool> = (0..program.instrs.len()).map(|i| stay_single.contains(&i)).collect();
     let points = points(domain, POINTS).points;
@@ -101,7 +103,7 @@ fn used(program: &Program) -> Vec<usize> {
     (0..program.instrs.len()).filter(|&i| counts[i] > 0).collect()
 }
 
-/// Each instruction's largest finite result, and at which point.
+/// Returns each instruction's largest finite result by magnitude and the index of its point.
 fn largest(program: &Program, points: &[Vec<f32>]) -> Vec<Option<(f64, usize)>> {
     let traced = traced(program);
     let mut largest: Vec<Option<(f64, usize)>> = vec![None; program.instrs.len()];
@@ -116,8 +118,8 @@ fn largest(program: &Program, points: &[Vec<f32>]) -> Vec<Option<(f64, usize)>> 
     largest
 }
 
-/// The instructions that no bound allows in halves: those with a constant, an argument or a result that
-/// no half holds.
+/// Marks the instructions that no bound allows in halves: those with a constant, an argument or a
+/// result that no half holds.
 fn lost_in_halves(program: &Program, points: &[Vec<f32>]) -> Vec<bool> {
     let largest = largest(program, points);
     let too_large = |i: usize| largest[i].is_some_and(|(value, _)| overflows(value));
@@ -132,24 +134,25 @@ fn lost_in_halves(program: &Program, points: &[Vec<f32>]) -> Vec<bool> {
     program.instrs.iter().enumerate().map(lost).collect()
 }
 
-/// The largest error over the domain of a program in half precision but for some instructions, and
-/// where it was looked for; infinite where it is no number in halves only.
+/// Returns the largest absolute error found over the domain, and the extent of the trial, of a
+/// program in half precision except for the instructions `stay_single`. The error is infinite if an
+/// output is finite in `f64` only.
 ///
 /// # Panics
-/// If `domain` has not one interval for each input.
+/// If `domain` does not have one interval for each input.
 pub fn half_loss(program: &Program, domain: &[Interval], stay_single: &[usize]) -> (f64, Tried) {
     let trials = Trials::new(program, domain);
     let single: Vec<bool> = (0..program.instrs.len()).map(|i| stay_single.contains(&i)).collect();
     (trials.worst(&single, trials.everywhere()), trials.tried)
 }
 
-/// The instructions that must stay in single precision for the error over the domain to be at most
-/// `bound` where it was looked for: the smallest set that was found, by adding what helps most and then
-/// taking away what is not needed. None where not even single precision throughout is enough. What no
-/// half holds stays single whatever the bound.
+/// Returns the instructions that must stay in single precision for the absolute error to be at most
+/// `bound` at all points tried: the smallest set found, by adding the instruction that helps most
+/// until that is enough, then removing those not needed. None if not even all instructions are
+/// enough. Instructions with values that no half holds stay single whatever the bound.
 ///
 /// # Panics
-/// If `domain` has not one interval for each input.
+/// If `domain` does not have one interval for each input.
 pub fn must_stay_single(program: &Program, domain: &[Interval], bound: f64) -> Option<Vec<usize>> {
     let mut trials = Trials::new(program, domain);
     let used = used(program);
@@ -179,13 +182,13 @@ pub fn must_stay_single(program: &Program, domain: &[Interval], bound: f64) -> O
     Some(used.into_iter().filter(|&i| single[i]).collect())
 }
 
-/// A program's values at the points where sets are tried.
+/// A program's values at the points at which sets of instructions are tried.
 struct Trials {
     variants: Vec<Variant>,
     points: Vec<Vec<f32>>,
     exact: Vec<Vec<f64>>,
     tried: Tried,
-    /// The points that decided so far, the last first.
+    /// The indices of the points that decided so far, the latest first.
     hard: Vec<usize>,
 }
 
@@ -219,7 +222,7 @@ impl Trials {
         points.map(|i| mixed.error(&self.points[i], &self.exact[i])).fold(0.0, f64::max)
     }
 
-    /// Whether no point's error exceeds the bound; the point that does is hard from now on.
+    /// Returns true if no point's error exceeds the bound; a point that does is hard from now on.
     fn are_within(&mut self, single: &[bool], bound: f64) -> bool {
         let mixed = self.mixed(single);
         let exceeds = |&i: &usize| mixed.error(&self.points[i], &self.exact[i]) > bound;

@@ -1,16 +1,19 @@
-//! Verdicts: what is known of a formula's behaviour wherever its inputs are in their domain.
+//! Verdicts: what is proved of a formula over its whole domain, or refuted.
 //!
-//! [`prove`] decides properties ([`Property`]: finite, at least, at most) by branch and bound over the
-//! domain's box: each is proved, refuted with an input that does it, or left open. An
-//! [`Enclosure`] bounds every instruction of a program on a box, for the interpreter's `f32` or for
-//! any arithmetic that GPUs are allowed ([`Rounding`]).
+//! [`prove`] decides properties ([`Property`]: finite, at least, at most) by branch and bound over
+//! the domain, a box: each is proved, refuted with a counterexample, or left open. An [`Enclosure`]
+//! bounds every instruction of a program on a box, for the interpreter's `f32` or for any
+//! arithmetic that GPUs are allowed ([`Rounding`]). An [`Examination`] adds what shows at sampled
+//! points: the losses of single and half precision, spreads, extremes, jumps, kinks and trends.
 //!
 //! ```
 //! use lgp::num::Interval;
 //! use lgp::program::{Names, parse};
-//! use lgp::stability::{Bound, Property, Limits, Rounding, Status, prove};
+//! use lgp::stability::{Bound, Limits, Property, Rounding, Status, prove};
+//!
 //! let program = parse("y = x*(1 - x) + 0.1/x", &Names::new(["x"], ["y"]))?;
-//! let claims = [Bound::Finite, Bound::AtLeast(0.0), Bound::AtMost(0.3)].map(|b| Property::of(0, b));
+//! let bounds = [Bound::Finite, Bound::AtLeast(0.0), Bound::AtMost(0.3)];
+//! let claims = bounds.map(|bound| Property::of(0, bound));
 //! let prove = |low| {
 //!     let domain = [Interval::new(low, 1.0)];
 //!     prove(&program, &domain, &claims, &Limits::new(Rounding::Gpu))
@@ -22,7 +25,7 @@
 //! # Ok::<(), lgp::program::ParseError>(())
 //! ```
 
-// A new operation must not be proved anything about by an arm that nobody looked at.
+// A wildcard arm might prove something of a new operation that nobody checked.
 #![deny(clippy::wildcard_enum_match_arm)]
 
 mod blame;

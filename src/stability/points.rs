@@ -1,18 +1,18 @@
-//! Where to look: points spread over a domain, crowded towards its faces.
+//! Sample points: spread over a domain, crowded towards its faces.
 
 use crate::num::Interval;
 
-/// Points spread over a domain, crowded towards its faces: some thousands.
+/// Returns some thousands of points, spread over a domain and crowded towards its faces.
 pub fn points_in(domain: &[Interval]) -> Vec<Vec<f32>> {
     all(&axes(domain, 2048, 14))
 }
 
-/// Points of each side, three at least, whose product is `total` or fewer if that can be: half of
-/// them evenly spaced, the ends among them, half of them nearer and nearer to both ends, down to
-/// `2^-finest` of the width. Of a side that is a point, that point.
+/// Returns the points of each side, at least three, whose combinations are at most `total` if
+/// possible: half of them evenly spaced from end to end, half of them ever nearer to both ends,
+/// down to `2^-finest` of the width. A side that is a point has that point alone.
 pub(super) fn axes(domain: &[Interval], total: usize, finest: u32) -> Vec<Vec<f32>> {
     let sides = domain.iter().filter(|side| side.low() < side.high()).count().max(1);
-    // Where they are too many to be all visited, as they are with three each, there may be more.
+    // Where even three each are too many combinations to visit, more points cost nothing.
     let least = if sides > MOST.ilog(3) as usize { 17.0 } else { 3.0 };
     let count = (total as f64).powf(1.0 / sides as f64).floor().clamp(least, 257.0) as usize;
     domain.iter().map(|&side| axis(side, count, finest)).collect()
@@ -40,12 +40,12 @@ fn axis(side: Interval, count: usize, finest: u32) -> Vec<f32> {
     points
 }
 
-/// Combinations that are visited at most, whatever the number of axes.
+/// The most combinations that are visited. Chosen by hand, unmeasured.
 const MOST: usize = 1 << 14;
 
-/// Calls `visit` at every combination of the axes' points; where they are too many, at the two corners
-/// where all are first or last, at those where one axis is not as the others, and at some that are spread
-/// by golden ratios.
+/// Calls `visit` at every combination of the axes' points. If these are more than [`MOST`], visits
+/// the two corners of all first and all last points, the corners where one axis differs from those,
+/// and combinations spread by irrational steps.
 pub(super) fn each(axes: &[Vec<f32>], visit: impl FnMut(&[f32])) {
     let count = axes.iter().try_fold(1usize, |product, axis| product.checked_mul(axis.len()));
     let Some(count) = count.filter(|&count| count <= MOST) else {
@@ -54,7 +54,7 @@ pub(super) fn each(axes: &[Vec<f32>], visit: impl FnMut(&[f32])) {
     every(axes, count, visit);
 }
 
-/// All combinations, of which there are `count`.
+/// Calls `visit` at all combinations, of which there are `count`.
 pub(super) fn every(axes: &[Vec<f32>], count: usize, mut visit: impl FnMut(&[f32])) {
     let mut point = vec![0.0; axes.len()];
     for index in 0..count {
@@ -91,7 +91,7 @@ fn some(axes: &[Vec<f32>], mut visit: impl FnMut(&[f32])) {
     }
 }
 
-/// The combinations of the axes' points that [`each`] visits.
+/// Returns the combinations of the axes' points that [`each`] visits.
 pub(super) fn all(axes: &[Vec<f32>]) -> Vec<Vec<f32>> {
     let mut points = Vec::new();
     each(axes, |point| points.push(point.to_vec()));

@@ -1,4 +1,4 @@
-//! What single and half precision lose.
+//! The losses of single and half precision.
 
 use super::blame::{Blame, Cause, Evaluation, relative, traced};
 use super::variants::Variant;
@@ -8,14 +8,14 @@ use crate::num::Interval;
 use crate::op::Op;
 use crate::program::{Arg, Program};
 
-/// A worst case.
+/// The worst loss found of an output.
 #[derive(Clone, Debug, PartialEq)]
 pub struct PrecisionLoss {
     /// The index of the output.
     pub output: usize,
-    /// The input.
+    /// The input where it occurs.
     pub input: Vec<f32>,
-    /// In low precision, and in `f64`.
+    /// The value in low precision.
     pub found: f64,
     /// The value in `f64`.
     pub exact: f64,
@@ -28,13 +28,13 @@ impl PrecisionLoss {
         self.found.is_finite() && self.exact.is_finite()
     }
 
-    /// Infinite where either is no number.
+    /// Returns the absolute error; infinite unless both values are finite.
     pub fn absolute(&self) -> f64 {
         let error = (self.found - self.exact).abs();
         if error.is_nan() { f64::INFINITY } else { error }
     }
 
-    /// Where `f64` has underflowed too, all is lost.
+    /// Returns the relative error; 1 where `f64` has underflowed, too, since all digits are lost.
     pub fn relative(&self) -> f64 {
         match relative(self.found, self.exact) {
             0.0 if self.blame.cause == Cause::Underflow => 1.0,
@@ -42,34 +42,34 @@ impl PrecisionLoss {
         }
     }
 
-    /// The error in units in the last place of `f32`.
+    /// Returns the absolute error in units in the last place of `f32`.
     pub fn ulps(&self) -> f64 {
         let exact = (self.exact as f32).abs();
         self.absolute() / f64::from(exact.next_up() - exact)
     }
 }
 
-/// The worst cases found, by absolute and by relative error, where both give
-/// numbers; and where low precision gives none, if anywhere.
+/// The worst losses found, of finite values by absolute and by relative error, and of values not
+/// finite in low precision.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Precision {
     /// The largest absolute error.
     pub absolute: Option<PrecisionLoss>,
     /// The largest relative error.
     pub relative: Option<PrecisionLoss>,
-    /// A value that is infinite or NaN only in low precision.
+    /// A value that is infinite or NaN in low precision.
     pub not_finite: Option<PrecisionLoss>,
 }
 
-/// Points that are looked at.
+/// The approximate number of points tried. Chosen by hand, unmeasured.
 const POINTS: usize = 4096;
 
 impl Precision {
-    /// Of `f32` against `f64`, with products and sums fused where the program says so and not, at
-    /// points spread over the domain and crowded towards its faces.
+    /// Compares `f32` with `f64`, every `mad` fused and not, at points spread over the domain and
+    /// crowded towards its faces.
     ///
     /// # Panics
-    /// If `domain` has not one interval for each input.
+    /// If `domain` does not have one interval for each input.
     pub fn single(program: &Program, domain: &[Interval]) -> Precision {
         let points = points::all(&points::axes(domain, POINTS, 24));
         let least = f32::MIN_POSITIVE.into();
@@ -78,18 +78,18 @@ impl Precision {
         })
     }
 
-    /// The same of half precision, at inputs that halves can hold, whether denormals are flushed or not.
+    /// Compares half precision with `f64`, at inputs that halves hold, denormals kept and flushed.
     ///
     /// # Panics
-    /// If `domain` has not one interval for each input.
+    /// If `domain` does not have one interval for each input.
     pub fn half(program: &Program, domain: &[Interval]) -> Precision {
         Precision::in_halves(program, domain, &half::ARITHMETICS)
     }
 
-    /// The same of some arithmetics of halves: denormals kept, or flushed, or both.
+    /// Compares as [`Precision::half`] does, with denormals kept, or flushed, or both, as given.
     ///
     /// # Panics
-    /// If `domain` has not one interval for each input.
+    /// If `domain` does not have one interval for each input.
     pub fn in_halves(program: &Program, domain: &[Interval], arithmetics: &[Half]) -> Precision {
         let points = half::points(domain, POINTS).points;
         worst(program, &points, half::MIN_NORMAL, |program, point| {
@@ -99,8 +99,8 @@ impl Precision {
     }
 }
 
-/// The worst of what an evaluation gives, or several, each of all outputs; instructions are those of the
-/// program as written.
+/// Returns the worst losses at `points`. `evaluate` gives the outputs of one arithmetic or several;
+/// `least` is their least normal number. Blame refers to the program as written.
 fn worst(
     program: &Program,
     points: &[Vec<f32>],
@@ -124,7 +124,8 @@ fn worst(
 }
 
 impl Precision {
-    /// Notes what is worse at a point than what is known; `origin` are the instructions as written.
+    /// Notes losses at a point that are worse than those known; `origin` maps to the program as
+    /// written.
     fn note(&mut self, trace: &Evaluation, origin: &[usize]) {
         let count = trace.program.instrs.len();
         for (output, &arg) in trace.program.outputs.iter().enumerate() {
@@ -153,7 +154,7 @@ impl Precision {
             || !loss.found.is_finite() && self.not_finite.is_none()
     }
 
-    /// Notes a loss where it is worse than what is known.
+    /// Notes a loss wherever it is worse than the one known.
     fn take(&mut self, loss: &PrecisionLoss) {
         let offer = |to: &mut Option<PrecisionLoss>, size: fn(&PrecisionLoss) -> f64| {
             if to.as_ref().is_none_or(|known| size(loss) > size(known)) {
@@ -170,8 +171,8 @@ impl Precision {
     }
 }
 
-/// The exponential that is zero even in `f64`, although no exponential is, where that makes the
-/// output zero.
+/// Returns the blame for an output that is zero because an exponential has underflowed even in
+/// `f64`; none if that is not so.
 fn vanished(trace: &Evaluation, found: f64, exact: f64) -> Option<Blame> {
     if found != 0.0 || exact != 0.0 {
         return None;
@@ -187,7 +188,7 @@ fn vanished(trace: &Evaluation, found: f64, exact: f64) -> Option<Blame> {
             && match instr.op() {
                 Op::Exp | Op::Exp2 => value(args[0]).is_finite(),
                 Op::Pow => value(args[0]) > 0.0 && value(args[1]).is_finite(),
-                // Zero of ordinary numbers only where it is zero indeed.
+                // Zero only where the exact result is zero.
                 Op::Add | Op::Sub | Op::Mul | Op::Div | Op::Neg | Op::Mad | Op::Lerp => false,
                 Op::Rcp | Op::Sqrt | Op::Rsqrt | Op::Log2 | Op::Log | Op::Tanh => false,
                 Op::Sin | Op::Cos | Op::Tan | Op::Asin | Op::Acos | Op::Atan | Op::Atan2 => false,

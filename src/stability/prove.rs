@@ -1,4 +1,4 @@
-//! Branch and bound.
+//! Proofs and refutations by branch and bound over a box.
 
 use super::{Enclosure, Rounding, counterexample};
 use crate::num::Interval;
@@ -7,7 +7,7 @@ use serde::{Deserialize, Serialize};
 use std::cmp::Ordering;
 use std::collections::{BinaryHeap, HashSet};
 
-/// What is claimed of an output, for every input of the domain. A NaN meets no claim.
+/// The bound that is claimed of an output for every input of the domain. NaN meets no bound.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub enum Bound {
     /// Neither infinite nor NaN.
@@ -18,54 +18,54 @@ pub enum Bound {
     AtMost(f64),
 }
 
-/// A bound on one output of a program. What is claimed of something else (a sum of outputs) becomes an
-/// output first.
+/// A bound on one output of a program. To bound anything else (a sum of outputs), make it an output
+/// first.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Property {
     /// The index of the output.
     pub output: usize,
-    /// The bound that its values keep to.
+    /// The bound on its values.
     pub bound: Bound,
 }
 
-/// What became of a claim.
+/// The outcome of a claim.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Status {
-    /// It holds for every input.
+    /// The claim holds for every input.
     Proved,
-    /// The claim fails here: what the interpreter gives, which every GPU may give, too.
+    /// The claim fails for an input in the interpreter's arithmetic, as it may on every GPU.
     Refuted {
         /// The counterexample.
         input: Vec<f32>,
-        /// The output there.
+        /// The interpreter's output there.
         value: f32,
     },
-    /// Neither; `volume` is the share of the domain where it is not proved.
+    /// The claim is neither proved nor refuted.
     Open {
-        /// The share of the domain that is left.
+        /// The share of the domain where it is not proved.
         volume: f64,
     },
 }
 
-/// Whose arithmetic, and how much is forgiven and spent.
+/// The arithmetic, tolerance and effort of a proof.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Limits {
-    /// The arithmetic that is meant.
+    /// The arithmetic that the proof is about.
     pub rounding: Rounding,
-    /// By how much a value may leave a range.
+    /// The absolute amount by which a value may violate a bound.
     pub slack: f64,
-    /// The part of the slack that a proof may not use, since what is made of the value rounds again.
+    /// The part of the slack that a proof may not use, since later use of the value rounds again.
     pub margin: f64,
-    /// Boxes looked at, at most.
+    /// The most boxes to examine.
     pub boxes: usize,
 }
 
-/// Asked between pieces of work of some microseconds, whether there is no more time for the rest.
+/// A check, made between pieces of work of some microseconds, whether time is up.
 pub type Stopped<'a> = &'a (dyn Fn() -> bool + Sync);
 
 impl Limits {
-    /// A slack of 1e-5: `exp2(0)` may be a few ulp above 1 on a GPU. As many boxes as take some tens
-    /// of milliseconds.
+    /// Returns limits with a slack of 1e-5, since `exp2(0)` may be a few ulp above 1 on a GPU, no
+    /// margin, and as many boxes as take some tens of milliseconds.
     pub fn new(rounding: Rounding) -> Limits {
         Limits { rounding, slack: 1e-5, margin: 0.0, boxes: 20_000 }
     }
@@ -77,7 +77,7 @@ impl Property {
         Property { output, bound }
     }
 
-    /// By how much a value fails; infinite where it is NaN, not positive where it does not.
+    /// Returns by how much a value fails, less the slack: infinite for NaN, at most 0 if it holds.
     pub fn excess(&self, value: f32, slack: f64) -> f64 {
         let x = f64::from(value);
         match self.bound {
@@ -108,9 +108,9 @@ impl Property {
 /// A part of the domain in which some claims are undecided.
 struct Part {
     domain: Vec<Interval>,
-    /// The share of the whole.
+    /// The share of the whole domain's volume.
     volume: f64,
-    /// A bit for each claim.
+    /// The undecided claims, a bit each.
     undecided: u64,
 }
 
@@ -134,8 +134,8 @@ impl Ord for Part {
 /// Decides claims on a program wherever each input is any `f32` of its interval.
 ///
 /// # Panics
-/// If `domain` has not one interval for each input, each with both bounds finite, there are more
-/// than 64 claims, or one is on an output that there is not.
+/// If `domain` does not have one interval with finite bounds for each input, there are more than 64
+/// claims, or one is on an output that the program does not have.
 pub fn prove(
     program: &Program,
     domain: &[Interval],
@@ -145,8 +145,8 @@ pub fn prove(
     prove_until(program, domain, claims, limits, &|| false)
 }
 
-/// [`prove`] until it is told to stop, too: what is undecided then is left open. What is decided is the
-/// same as without.
+/// Decides claims as [`prove`] does, but leaves open what is undecided once `stopped` returns true.
+/// What is decided before that is the same.
 ///
 /// # Panics
 /// As [`prove`] does.
@@ -205,7 +205,7 @@ pub(crate) fn prove_until(
     refuted.into_iter().zip(open).map(status).collect()
 }
 
-/// The domain, a point where the program does not look.
+/// Returns the domain, with a point for the side of each input that the program does not read.
 fn read_sides(program: &Program, domain: &[Interval]) -> Vec<Interval> {
     let args = program.instrs.iter().flat_map(|instr| instr.args()).chain(&program.outputs);
     let read: HashSet<Arg> = args.copied().collect();
@@ -216,7 +216,7 @@ fn read_sides(program: &Program, domain: &[Interval]) -> Vec<Interval> {
     domain.iter().enumerate().map(side).collect()
 }
 
-/// The claims whose bit is set.
+/// Returns the claims whose bits are set, with their indices.
 fn marked(claims: &[Property], bits: u64) -> impl Iterator<Item = (usize, &Property)> {
     claims.iter().enumerate().filter(move |(i, _)| bits >> i & 1 == 1)
 }
@@ -225,7 +225,7 @@ fn middle(side: Interval) -> f32 {
     (side.low() / 2.0 + side.high() / 2.0).clamp(side.low(), side.high())
 }
 
-/// Both halves across the side that seems to matter most; nothing of a point.
+/// Halves a part across the side that seems to matter most; returns none for a point.
 fn split(
     program: &Program,
     enclosure: &Enclosure,
@@ -251,7 +251,7 @@ fn split(
     let side = divisible.max_by(|&a, &b| importance(a).total_cmp(&importance(b)))?;
     let (low, high) = (part.domain[side].low(), part.domain[side].high());
     let cut = middle(part.domain[side]);
-    // Of two neighbours, one to each half; else the cut belongs to both.
+    // Two neighbouring numbers go to one half each; otherwise the cut belongs to both halves.
     let sides = match low.next_up() == high {
         true => [Interval::new(low, low), Interval::new(high, high)],
         false => [Interval::new(low, cut), Interval::new(cut, high)],

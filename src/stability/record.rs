@@ -1,54 +1,54 @@
-//! Verdicts as `front.json` and `lgp check --json` have them.
+//! Verdicts as in `front.json` and the output of `lgp check --json`.
 
 use super::{Finding, Status, Verdict};
 use crate::program::{ALWAYS_ASKED, Names};
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 
-/// What is known of a formula's behaviour.
+/// A [`Verdict`], its worst finding for each topic.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct VerdictRecord {
-    /// That no output is infinite or NaN.
+    /// The claim that no output is infinite or NaN.
     pub finite: ClaimRecord,
-    /// None where nothing was asked.
+    /// The claim that outputs stay in their ranges; none if no output has one.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub range: Option<ClaimRecord>,
-    /// By name.
+    /// The other claims, by name.
     #[serde(flatten)]
     pub claims: BTreeMap<String, ClaimRecord>,
 }
 
-/// What became of a claim in the interpreter's arithmetic, and on GPUs.
+/// The outcome of a claim in the interpreter's arithmetic, and on GPUs.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct ClaimRecord {
-    /// In the interpreter's arithmetic.
+    /// The outcome in the interpreter's arithmetic.
     #[serde(flatten)]
     pub exact: StatusRecord,
-    /// The claim that failed or is open, as `scale ≥ 0`.
+    /// The claim, such as `scale ≥ 0`; none if proved for both or only sampled.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub claim: Option<String>,
-    /// On GPUs, where that differs.
+    /// The outcome on GPUs; none if it was only sampled.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub gpu: Option<StatusRecord>,
 }
 
-/// A [`Status`], its input by name.
+/// A [`Status`] with its input by name.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct StatusRecord {
     /// `proved`, `refuted`, `open`, or `sampled`: it holds on every sample of both splits.
     pub status: String,
-    /// Where it fails.
+    /// The counterexample, if it is refuted.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub input: Option<BTreeMap<String, f32>>,
-    /// What the formula gives there: a number, or the text `NaN`, `inf` or `-inf`.
+    /// The value there: a number, or the text `NaN`, `inf` or `-inf`.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub value: Option<Value>,
-    /// The share of the domain where it is open.
+    /// The share of the domain where it is not proved, if it is open.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub volume: Option<f64>,
 }
 
-/// A value that JSON may have no number for.
+/// A value for which JSON may have no number.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(untagged)]
 pub enum Value {
@@ -65,7 +65,7 @@ impl From<f32> for Value {
 }
 
 impl Default for VerdictRecord {
-    /// What every formula of a front is: finite on every sample.
+    /// Returns what holds for every formula of a front: finite on every sample.
     fn default() -> VerdictRecord {
         let sampled = StatusRecord::plain("sampled");
         let finite = ClaimRecord { exact: sampled, claim: None, gpu: None };
@@ -74,8 +74,10 @@ impl Default for VerdictRecord {
 }
 
 impl VerdictRecord {
+    /// Makes the record of a verdict.
+    ///
     /// # Panics
-    /// If the verdict is of no output.
+    /// If the verdict is on a formula without outputs.
     pub fn new(verdict: &Verdict, names: &Names) -> VerdictRecord {
         let of = |topic: &str| Some(ClaimRecord::new(verdict.worst(topic)?, names));
         let [finite, range] = ALWAYS_ASKED;
@@ -87,7 +89,7 @@ impl VerdictRecord {
         }
     }
 
-    /// What was asked, and what became of it.
+    /// Returns what was asked, by name, and the outcome: finite, range, then claims.
     pub fn topics(&self) -> Vec<(&str, &ClaimRecord)> {
         let [finite, range] = ALWAYS_ASKED;
         let claims = self.claims.iter().map(|(name, claim)| (name.as_str(), claim));
@@ -95,7 +97,7 @@ impl VerdictRecord {
         [(finite, &self.finite)].into_iter().chain(range).chain(claims).collect()
     }
 
-    /// Whether anything but samples was looked at.
+    /// Returns true if the formula was examined beyond its samples.
     pub fn is_judged(&self) -> bool {
         self.finite.exact.status != "sampled"
     }

@@ -1,36 +1,38 @@
-//! What each operation's result may be off by, as the operation table has it. What is peculiar to one is decided
-//! where each is named: a new one must not get a bound that nobody looked up.
+//! Bounds each operation's error, as the operation table states it. Special cases are matched by
+//! name, without a wildcard, so that no new operation gets a bound that nobody looked up.
 
 use crate::eval::{Arithmetic, Bounds};
 use crate::num::{Interval, enclose};
 use crate::op::{Accuracy, Op};
 use serde::{Deserialize, Serialize};
 
-/// Whose arithmetic a verdict is about.
+/// The arithmetic that a verdict is about.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub enum Rounding {
     /// The interpreter's: IEEE single precision, elementary functions within their stated errors.
     Exact,
-    /// Any that WGSL and Vulkan allow ("Floating Point Accuracy" of the WGSL specification,
-    /// "Precision and Operation of SPIR-V Instructions" of Vulkan's): either direction of rounding,
-    /// division within 2.5 ulp, exp2 within 3 + 2|x|, …, denormals flushed, products and sums fused
-    /// or not. A clamp of NaN may give a number. Of sin and cos beyond ±π, for which the specifications
-    /// promise nothing, nothing is assumed; of atan2 at the origin only the function's range.
+    /// Any that WGSL and Vulkan allow (sections "Floating Point Accuracy" of the WGSL specification
+    /// and "Precision and Operation of SPIR-V Instructions" of Vulkan's): rounding in either
+    /// direction, division within 2.5 ulp, exp2 within 3 + 2|x| ulp, …, denormals flushed, products
+    /// and sums fused or not. A clamp of NaN may give a number. Beyond ±π, where the specifications
+    /// promise nothing, sin and cos may give anything; atan2 at the origin, any value in its range.
     Gpu,
 }
 
-/// An error: relative to the result, plus absolute.
+/// An error bound: a part relative to the result plus an absolute one.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Error {
     pub relative: f64,
     pub absolute: f64,
 }
 
-/// A unit in the last place, relative to the number (at most), and of denormals.
+/// The largest unit in the last place, relative to the number.
 const ULP: f64 = f32::EPSILON as f64;
+
+/// Just above the unit in the last place of denormals, 2⁻¹⁴⁹.
 const LEAST: f64 = 1.5e-45;
 
-/// Below it results may be flushed to zero.
+/// The magnitude below which results may be flushed to zero.
 const MIN_NORMAL: f32 = f32::MIN_POSITIVE;
 
 /// Just below 2¹²⁶: the reciprocal of a larger number may be flushed to zero.
@@ -57,7 +59,7 @@ impl Rounding {
         }
     }
 
-    /// Of one operation; those that are made of others have no error of their own.
+    /// Returns the error of one operation; those composed of others have none of their own.
     pub(super) fn error(self, op: Op, [a, ..]: [Interval; 4]) -> Error {
         let Accuracy::Within(tolerance) = self.accuracy(op) else { return Error::NONE };
         let error = Error::ulps(tolerance.ulps_up_to(a.abs().high().into()));
@@ -69,12 +71,12 @@ impl Rounding {
         Error { absolute: absolute + flushed, ..error }
     }
 
-    /// Whether any accuracy is promised of an operation there.
+    /// Returns true if some accuracy is promised of an operation throughout an argument's interval.
     pub(super) fn promises(self, op: Op, argument: Interval) -> bool {
         argument.abs().high() <= self.accuracy(op).up_to()
     }
 
-    /// Bounds of one operation's results, given those of its arguments.
+    /// Returns the bounds of one operation's results, given those of its arguments.
     pub(super) fn bounds(self, op: Op, arguments: [Interval; 4]) -> Interval {
         let exact = Bounds.apply(op, arguments);
         if self == Rounding::Exact {
@@ -122,7 +124,7 @@ fn spread(bounds: Interval, error: Error) -> Interval {
     enclose(low - error(low), high + error(high)).or_nan_if(bounds.may_be_nan())
 }
 
-/// With zero, if it holds denormals.
+/// Adds zero to an interval that holds denormals, as these may be flushed.
 pub(super) fn flushed(bounds: Interval) -> Interval {
     let denormal = bounds.low() < MIN_NORMAL && bounds.high() > -MIN_NORMAL;
     if denormal && !bounds.is_empty() { bounds.hull(Interval::new(0.0, 0.0)) } else { bounds }

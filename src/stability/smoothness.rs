@@ -1,4 +1,4 @@
-//! Jumps, kinks and slopes along the axes.
+//! Jumps, kinks and trends along the axes.
 
 use super::blame::traced;
 use crate::eval::{Arithmetic, Double};
@@ -7,24 +7,24 @@ use crate::op::Op;
 use crate::program::{Arg, Program, use_counts};
 use serde::Serialize;
 
-/// Where an output is not smooth: the worst of its kind along one input.
+/// A place where an output is not smooth: the worst found along one input.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Break {
     /// The index of the output.
     pub output: usize,
     /// The index of the input that changes.
     pub along: usize,
-    /// The place.
+    /// The place, in `f64`.
     pub input: Vec<f64>,
     /// The instruction whose branches meet there.
     pub instruction: usize,
-    /// By how much the value jumps, and the slope.
+    /// The change of the value.
     pub jump: f64,
-    /// The change of slope.
+    /// The change of the slope, per unit of the input.
     pub kink: f64,
 }
 
-/// How an output goes as an input grows.
+/// The direction of an output as an input grows.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Trend {
@@ -38,33 +38,35 @@ pub enum Trend {
     Neither,
 }
 
-/// What was seen along lines through the domain.
+/// The breaks and trends seen along lines through the domain.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Smoothness {
-    /// For each output and input what jumps most, or what bends most where nothing jumps.
+    /// For each output and input the largest jump that counts, else the largest kink that counts.
     pub breaks: Vec<Break>,
-    /// By output and input.
+    /// The trends, by output and input.
     pub trends: Vec<Vec<Trend>>,
 }
 
-/// Lines along each input, and steps on a line.
+/// The number of lines along each input: 9 × 9 values of two others. Chosen by hand, unmeasured.
 const LINES: usize = 81;
+
+/// The number of steps on a line. Chosen by hand, unmeasured.
 const STEPS: usize = 128;
 
-/// Changes that rounding of `f64` may make, relative to the larger value.
+/// The relative change that rounding of `f64` may make. Chosen by hand, unmeasured.
 const ROUNDING: f64 = 1e-12;
 
-/// Jumps that count.
+/// The size above which a jump counts. Chosen by hand, unmeasured.
 pub const JUMP: f64 = 1e-5;
 
-/// Bends in slope that count, times the width.
+/// The size above which a kink times the side's width counts. Chosen by hand, unmeasured.
 const KINK: f64 = 1e-3;
 
 impl Smoothness {
-    /// Looks along lines parallel to the axes, in `f64`.
+    /// Follows a program along lines parallel to the axes, in `f64`.
     ///
     /// # Panics
-    /// If `domain` has not one interval for each input.
+    /// If `domain` does not have one interval for each input.
     pub fn of(program: &Program, domain: &[Interval]) -> Smoothness {
         let mut used = Vec::new();
         use_counts(program, &mut used);
@@ -87,7 +89,7 @@ struct View<'a> {
     program: &'a Program,
     traced: Program,
     domain: &'a [Interval],
-    /// The piecewise instructions.
+    /// The piecewise instructions that are used.
     watched: Vec<usize>,
 }
 
@@ -143,7 +145,7 @@ impl View<'_> {
         (worst.into_iter().filter_map(notable).collect(), moves.into_iter().map(trend).collect())
     }
 
-    /// The other inputs on a line: nine values of each of two, others by the golden ratio.
+    /// Returns the other inputs on a line: nine values of each of two, others by the golden ratio.
     fn elsewhere(&self, line: usize, along: usize) -> Vec<f64> {
         let mut others = 0;
         let share = |i: usize, others: &mut usize| {
@@ -172,7 +174,7 @@ impl View<'_> {
         values[self.program.instrs.len() + o]
     }
 
-    /// Which piece of a piecewise operation is taken.
+    /// Returns the piece that a piecewise operation takes.
     fn branch(&self, i: usize, point: &[f64], values: &[f64]) -> i64 {
         let instr = &self.program.instrs[i];
         let value = |k: usize| match instr.args()[k] {
@@ -188,14 +190,14 @@ impl View<'_> {
             Op::Saturate => i64::from(value(0) > 0.0) + i64::from(value(0) > 1.0),
             Op::Floor | Op::Fract => value(0).floor().clamp(-1e18, 1e18) as i64,
             Op::Sign => i64::from(value(0) > 0.0) - i64::from(value(0) < 0.0),
-            // Of one piece.
+            // In one piece.
             Op::Add | Op::Sub | Op::Mul | Op::Div | Op::Neg | Op::Mad | Op::Lerp | Op::Pow => 0,
             Op::Rcp | Op::Sqrt | Op::Rsqrt | Op::Exp2 | Op::Log2 | Op::Exp | Op::Log => 0,
             Op::Sin | Op::Cos | Op::Tan | Op::Asin | Op::Acos | Op::Atan | Op::Tanh => 0,
         }
     }
 
-    /// Halves the step down to where the branches meet.
+    /// Bisects a step to where the branches meet; returns each output's break there.
     fn locate(
         &self,
         instruction: usize,
@@ -209,6 +211,7 @@ impl View<'_> {
             let middle = (left + right) / 2.0;
             if branch(middle) == first { left = middle } else { right = middle }
         }
+        // Chosen by hand, unmeasured.
         const APART: f64 = 1e-5;
         let sample = |share: f64| self.evaluate(&at(share.clamp(0.0, 1.0)));
         let [far_left, near_left, near_right, far_right] =

@@ -1,4 +1,4 @@
-//! The same formula as other compilers write it.
+//! A formula as compilers may rewrite it.
 
 use super::points;
 use crate::dataset::Split;
@@ -8,13 +8,13 @@ use crate::op::Op;
 use crate::program::{Arg, Draft, Instr, Invalid, Program};
 use serde::Serialize;
 
-/// What a compiler may do.
+/// A rewrite that a compiler may make.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Liberty {
     /// Each `mad` as a product and a sum, both rounded.
     Unfused,
-    /// Each product that is added to something as a `mad`.
+    /// Each sum or difference with a product as a `mad`.
     Fused,
     /// A quotient as a product with the reciprocal, a root as the reciprocal of `rsqrt`.
     Reciprocal,
@@ -25,21 +25,21 @@ pub enum Liberty {
 const LIBERTIES: [Liberty; 4] =
     [Liberty::Unfused, Liberty::Fused, Liberty::Reciprocal, Liberty::Reassociated];
 
-/// The largest difference that a liberty makes.
+/// The largest difference found that a liberty makes to an output.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Spread {
     /// The liberty.
     pub liberty: Liberty,
     /// The index of the output.
     pub output: usize,
-    /// The input at which it spreads most.
+    /// The input where it differs most.
     pub input: Vec<f32>,
-    /// As written, and as rewritten.
+    /// The values as written and as rewritten.
     pub values: [f32; 2],
 }
 
 impl Spread {
-    /// Infinite where one of the values is no number.
+    /// Returns the absolute difference: 0 if both values are NaN, infinite if only one is.
     pub fn size(&self) -> f64 {
         let [a, b] = self.values.map(f64::from);
         match (a - b).abs() {
@@ -50,12 +50,13 @@ impl Spread {
     }
 }
 
+/// The approximate number of points tried. Chosen by hand, unmeasured.
 const POINTS: usize = 4096;
 
-/// What each liberty can change at most, as far as points spread over the domain show it.
+/// Returns the largest difference that each liberty makes at points spread over the domain.
 ///
 /// # Panics
-/// If `domain` has not one interval for each input.
+/// If `domain` does not have one interval for each input.
 pub fn spreads(program: &Program, domain: &[Interval]) -> Vec<Spread> {
     let points = points::all(&points::axes(domain, POINTS, 24));
     let columns = (0..domain.len()).map(|i| points.iter().map(|point| point[i]).collect());
@@ -85,20 +86,20 @@ pub fn spreads(program: &Program, domain: &[Interval]) -> Vec<Spread> {
     LIBERTIES.into_iter().filter_map(spread).collect()
 }
 
-/// A program as a compiler may write it.
+/// A program as a compiler may rewrite it.
 pub(super) struct Variant {
     pub program: Program,
-    /// For each of its instructions, the one of the program as written that it is of.
+    /// For each of its instructions, the index of its origin in the program as written.
     pub origin: Vec<usize>,
 }
 
 impl Variant {
-    /// As written.
+    /// Returns the program as written.
     pub fn plain(program: &Program) -> Variant {
         Variant { program: program.clone(), origin: (0..program.instrs.len()).collect() }
     }
 
-    /// As written, and each `mad` as a product and a sum, where there is one.
+    /// Returns the program as written and, if it has a `mad`, with each as a product and a sum.
     pub fn fused_or_not(program: &Program) -> Vec<Variant> {
         let mut variants = vec![Variant::plain(program)];
         if program.instrs.iter().any(|instr| instr.op() == Op::Mad) {
@@ -134,14 +135,14 @@ fn rewritten(program: &Program, liberty: Liberty) -> (Draft, Vec<usize>) {
     (draft, origin)
 }
 
-/// The first two arguments of `arg`'s instruction, if that is an `op`.
+/// Returns the first two arguments of `arg`'s instruction, if that is an `op`.
 fn inner(draft: &Draft, arg: Arg, op: Op) -> Option<[Arg; 2]> {
     let Arg::Result(i) = arg else { return None };
     let instr = draft.instrs[usize::from(i)];
     (instr.op() == op).then(|| [instr.args()[0], instr.args()[1]])
 }
 
-/// A sum with a product, or a difference of one, as a `mad`.
+/// Writes a sum or difference with a product as a `mad`.
 fn fused(draft: &mut Draft, instr: Instr) -> Arg {
     let (op, args) = (instr.op(), instr.args());
     if !matches!(op, Op::Add | Op::Sub) {

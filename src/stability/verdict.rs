@@ -1,4 +1,4 @@
-//! What is asked of a formula as a rule, and what became of it.
+//! The questions asked of every formula over its domain, and their outcomes.
 
 use super::prove::prove_until;
 use super::{Bound, Limits, Property, Rounding, Status, Stopped};
@@ -8,16 +8,16 @@ use crate::op::Op;
 use crate::program::{ALWAYS_ASKED, Arg, Claim, Draft, Names, Program, shortest};
 use crate::simplify::folded_draft;
 
-/// What is asked of a formula over a domain.
+/// The questions about a formula over a domain.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Questions {
-    /// What each input can be: the numbers of `f32` that its domain holds.
+    /// The values of each input: the `f32`s that its domain holds.
     pub domain: Vec<Interval>,
-    /// For each output, what it must not leave; infinite where it may.
+    /// The range that each output must stay in; an infinite end is no bound.
     pub ranges: Vec<[f64; 2]>,
-    /// Over these inputs and outputs.
+    /// Claims over these inputs and outputs.
     pub claims: Vec<Claim>,
-    /// By how much a value may leave its range.
+    /// The absolute amount by which a value may leave its range.
     pub slack: f64,
 }
 
@@ -25,9 +25,9 @@ const FINITE: &str = ALWAYS_ASKED[0];
 const RANGE: &str = ALWAYS_ASKED[1];
 
 impl Questions {
-    /// What the columns of a dataset suggest: over the inputs' domain, an output whose domain is within
-    /// [0, 1] must stay there, and one that is never negative must not be; and of the claims those that are
-    /// over these columns.
+    /// Makes the questions that a dataset's columns suggest: over the inputs' domain, an output
+    /// whose domain is within [0, 1] must stay in [0, 1], and one that is never negative must not
+    /// become negative. Of the claims, those over these columns are kept.
     pub fn of(inputs: &[Column], outputs: &[Column], claims: &[String]) -> Questions {
         let range = |column: &Column| match column.domain {
             [low, high] if low >= 0.0 && high <= 1.0 => [0.0, 1.0],
@@ -46,7 +46,7 @@ impl Questions {
         }
     }
 
-    /// What is to be proved of a program, in order.
+    /// Returns what is to be proved of a program, in order.
     fn groups(&self, program: &Program) -> Vec<Group> {
         let outputs = 0..self.ranges.len();
         let finite = outputs.clone().map(|o| Finding::open(FINITE, Property::of(o, Bound::Finite)));
@@ -62,8 +62,9 @@ impl Questions {
         [plain].into_iter().chain(claims).collect()
     }
 
-    /// A claim where the variables that it is linear in are at the ends of their ranges, the others being inputs
-    /// after those of the program. What it bounds are outputs after those of the program.
+    /// Returns the group of a claim. Variables in which it is linear are at the ends of their
+    /// ranges, a case for each combination; others are inputs after the program's. The bounded
+    /// expressions are outputs after the program's.
     fn claimed(&self, program: &Program, claim: &Claim) -> Group {
         let (mut joint, mut domain) = (program.clone().into_draft(), self.domain.clone());
         let columns = (0..domain.len() as u16).map(Arg::Input).chain(joint.outputs.iter().copied());
@@ -94,7 +95,7 @@ impl Questions {
         let mut findings = Vec::new();
         let mut fits = true;
         for (draft, case) in cases {
-            // Where a factor is 0, the other does not matter: whether it is a number is asked apart.
+            // Folding drops what is multiplied by 0: whether that is finite is asked apart.
             let draft = folded_draft(&draft);
             let longest = |draft: &Draft| draft.instrs.len().max(draft.consts.len());
             fits &= longest(&joint) + longest(&draft) <= usize::from(u16::MAX);
@@ -112,14 +113,14 @@ impl Questions {
     }
 }
 
-/// The bounds of an output that must stay in a range.
+/// Returns the properties of an output that must stay in a range: its finite ends as bounds.
 fn within(output: usize, [low, high]: [f64; 2]) -> impl Iterator<Item = Property> {
     let bounds = [Bound::AtLeast(low), Bound::AtMost(high)].into_iter().zip([low, high]);
     let asked = bounds.filter(|(_, end)| end.is_finite());
     asked.map(move |(bound, _)| Property::of(output, bound))
 }
 
-/// Puts a number in an input's place.
+/// Puts a number in place of an input.
 fn fix(draft: &mut Draft, input: Arg, value: f32) {
     let value = draft.constant(value);
     let Draft { instrs, outputs, .. } = draft;
@@ -127,8 +128,8 @@ fn fix(draft: &mut Draft, input: Arg, value: f32) {
     args.filter(|arg| **arg == input).for_each(|arg| *arg = value);
 }
 
-/// Whether a program is linear in an input, with a factor and a rest that are of the others, as far as its
-/// operations show it.
+/// Returns true if a program's operations show that it is linear in an input, with a factor and a
+/// rest that depend on the others only.
 fn is_linear(program: &Program, input: Arg) -> bool {
     let mut degrees: Vec<u32> = Vec::new();
     let degree = |arg: &Arg, degrees: &[u32]| match arg {
@@ -156,10 +157,12 @@ fn is_linear(program: &Program, input: Arg) -> bool {
     program.outputs.iter().all(|output| degree(output, &degrees) <= 1)
 }
 
-/// Properties of one program over one domain, decided together; no program where it would be too long.
+/// Properties of one program over one domain, decided together.
 struct Group {
+    /// None if it would be too long: its properties stay open.
     program: Option<Program>,
     domain: Vec<Interval>,
+    /// The part of the slack that proofs may not use.
     margin: f64,
     findings: Vec<Finding>,
 }
@@ -167,7 +170,7 @@ struct Group {
 impl Group {
     fn decided(mut self, slack: f64, boxes: usize, stopped: Stopped) -> Vec<Finding> {
         let Some(program) = &self.program else { return self.findings };
-        // What holds for every GPU holds for the interpreter, and what it refutes it does.
+        // A proof for every GPU, or a refutation, which is the interpreter's, decides both.
         for rounding in [Rounding::Gpu, Rounding::Exact] {
             let limits = Limits { rounding, slack, margin: self.margin, boxes };
             let open = |finding: &&mut Finding| matches!(finding.gpu, Status::Open { .. });
@@ -187,52 +190,53 @@ impl Group {
     }
 }
 
-/// A claim where some of its variables are at an end of their range.
+/// A case of a claim: each variable in which it is linear is at an end of its range.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Case {
     /// The expression that is bounded.
     pub expression: String,
-    /// Names and values; none of those that are anything in their range.
+    /// The variables' names and values; none for one that takes any value of its range.
     pub variables: Vec<(String, Option<f32>)>,
 }
 
-/// What became of one property.
+/// The outcome of one property.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Finding {
     /// `finite`, `range`, or the claim's name.
     pub topic: String,
-    /// Of an output, or of what the case of a claim bounds.
+    /// The property of an output, or of the expression that the claim bounds.
     pub property: Property,
-    /// The values of the claim's variables.
+    /// The case of the claim; none for `finite` and `range`.
     pub case: Option<Case>,
-    /// In the interpreter's arithmetic.
+    /// The outcome in the interpreter's arithmetic.
     pub exact: Status,
-    /// In any that GPUs are allowed.
+    /// The outcome in any arithmetic that GPUs are allowed.
     pub gpu: Status,
 }
 
-/// What is known of a formula.
+/// The findings on a formula.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Verdict {
-    /// One finding a claim and case.
+    /// One finding for each property, in the order asked.
     pub findings: Vec<Finding>,
 }
 
-/// The rounding of a claim's expression itself between the ends of a variable, which looking at them leaves out.
+/// The rounding of a claim's own expression between a variable's ends, which alone are checked.
+/// Chosen by hand, unmeasured.
 const SUM_ROUNDING: f64 = 1e-6;
 
 impl Verdict {
     /// Tries to prove or refute everything asked.
     ///
     /// # Panics
-    /// If the program has other numbers of inputs and outputs than the questions.
+    /// If the program does not have as many inputs and outputs as the questions.
     pub fn of(program: &Program, questions: &Questions) -> Verdict {
         let boxes = Limits::new(Rounding::Exact).boxes;
         Verdict::within(program, questions, boxes, &|| false)
     }
 
-    /// [`Verdict::of`], with no more than so many boxes for each proof, and until it is told to stop:
-    /// what is undecided then is open.
+    /// Judges as [`Verdict::of`] does, with at most `boxes` boxes for each proof, and leaves open
+    /// what is undecided once `stopped` returns true.
     ///
     /// # Panics
     /// As [`Verdict::of`] does.
@@ -247,21 +251,21 @@ impl Verdict {
         Verdict { findings: decided.collect() }
     }
 
-    /// Whether nothing is left open.
+    /// Returns true if nothing is left open.
     pub fn is_decided(&self) -> bool {
         let open = |status: &Status| matches!(status, Status::Open { .. });
         !self.findings.iter().any(|finding| open(&finding.exact) || open(&finding.gpu))
     }
 
-    /// What was asked, in order, each once.
+    /// Returns the topics, each once, in the order asked.
     pub fn topics(&self) -> Vec<&str> {
         let mut topics: Vec<&str> = self.findings.iter().map(|f| f.topic.as_str()).collect();
         topics.dedup();
         topics
     }
 
-    /// Of one topic the finding that matters: refuted, else open, else proved; nothing where nothing
-    /// was asked.
+    /// Returns the worst finding on a topic, the first of equals: refuted, else open, else proved
+    /// for the interpreter only, else proved. None if the topic was not asked.
     pub fn worst(&self, topic: &str) -> Option<&Finding> {
         let rank = |finding: &Finding| match (&finding.exact, &finding.gpu) {
             (Status::Refuted { .. }, _) => 3,
@@ -270,19 +274,19 @@ impl Verdict {
             _ => 0,
         };
         let findings = self.findings.iter().filter(|finding| finding.topic == topic);
-        // Of equals the first.
+        // `max_by_key` returns the last of equals.
         findings.rev().max_by_key(|finding| rank(finding))
     }
 }
 
 impl Finding {
-    /// Of which nothing is known.
+    /// Makes a finding of which nothing is known yet.
     fn open(topic: &str, property: Property) -> Finding {
         let open = Status::Open { volume: 1.0 };
         Finding { topic: topic.to_owned(), property, case: None, exact: open.clone(), gpu: open }
     }
 
-    /// The property in words, as `scale ≥ 0`.
+    /// Returns the property as text, such as `scale ≥ 0`.
     pub fn text(&self, names: &Names) -> String {
         let what = match &self.case {
             Some(case) => &case.expression,
@@ -295,7 +299,7 @@ impl Finding {
         }
     }
 
-    /// The values of a claim's variables that are given, as ` (f0 = 0)`; or nothing.
+    /// Returns the given values of a claim's variables, such as ` (f0 = 0)`, or an empty text.
     pub fn given(&self) -> String {
         let variables = self.case.iter().flat_map(|case| &case.variables);
         let given = variables.filter_map(|(name, value)| Some(format!("{name} = {}", (*value)?)));
@@ -305,7 +309,7 @@ impl Finding {
         }
     }
 
-    /// An input at which it was refuted by name, with the values of the claim's variables.
+    /// Returns a counterexample's inputs and the claim's variables, by name.
     pub fn named(&self, names: &Names, input: &[f32]) -> Vec<(String, f32)> {
         let mut values = input.iter().copied();
         let inputs: Vec<_> = names.inputs.iter().cloned().zip(values.by_ref()).collect();

@@ -2,7 +2,8 @@
 
 use super::sampling::{SAMPLING, SAMPLING_SEED};
 use super::{Choices, Error, Parameter, Target, targets};
-use crate::dataset::{LARGEST_TEXT, Origin, read_text};
+use crate::dataset::Origin;
+use crate::file::read_text;
 use ron::value::{Map, Value};
 use std::fmt;
 use std::path::Path;
@@ -73,8 +74,7 @@ impl Recipe {
     /// # Errors
     /// A file that cannot be read, or those of [`Recipe::parse`], with the path.
     pub fn load(path: &Path) -> Result<Recipe, Error> {
-        let text = read_text(path, LARGEST_TEXT)
-            .map_err(|source| Error::Read { path: path.into(), source })?;
+        let text = read_text(path).map_err(|source| Error::Read { path: path.into(), source })?;
         Recipe::parse(&text)
             .map_err(|error| Error::In { path: path.into(), error: Box::new(error) })
     }

@@ -1,4 +1,4 @@
-//! Splits formula text into tokens.
+//! Splits formula text into tokens, and steps through them.
 
 use super::ParseError;
 use super::excerpt::plain;
@@ -15,8 +15,69 @@ pub(super) enum Token {
     End,
 }
 
+/// The tokens of a text, read from first to last.
+pub(super) struct Tokens<'a> {
+    text: &'a str,
+    /// Each with its byte offset.
+    all: Vec<(usize, Token)>,
+    next: usize,
+}
+
+impl Tokens<'_> {
+    pub(super) fn new(text: &str) -> Result<Tokens<'_>, ParseError> {
+        Ok(Tokens { text, all: split(text)?, next: 0 })
+    }
+
+    pub(super) fn peek(&self) -> Option<&Token> {
+        self.all.get(self.next).map(|(_, token)| token)
+    }
+
+    pub(super) fn peek_second(&self) -> Option<&Token> {
+        self.all.get(self.next + 1).map(|(_, token)| token)
+    }
+
+    pub(super) fn skip(&mut self, count: usize) {
+        self.next += count;
+    }
+
+    /// The byte offset of the next token, or of the end of the text.
+    pub(super) fn offset(&self) -> usize {
+        self.all.get(self.next).map_or(self.text.trim_end().len(), |(at, _)| *at)
+    }
+
+    pub(super) fn error<T>(
+        &self,
+        offset: usize,
+        message: impl Into<String>,
+    ) -> Result<T, ParseError> {
+        Err(ParseError::at(self.text, offset, message))
+    }
+
+    /// Turns a message to an error at this offset.
+    pub(super) fn placed<T>(
+        &self,
+        offset: usize,
+        result: Result<T, String>,
+    ) -> Result<T, ParseError> {
+        result.or_else(|message| self.error(offset, message))
+    }
+
+    pub(super) fn take_symbol(&mut self, symbol: char) -> bool {
+        let found = self.peek() == Some(&Token::Symbol(symbol));
+        self.next += usize::from(found);
+        found
+    }
+
+    pub(super) fn expect(&mut self, symbol: char, context: &str) -> Result<(), ParseError> {
+        if self.take_symbol(symbol) {
+            return Ok(());
+        }
+        self.error(self.offset(), format!("expected `{symbol}` {context}"))
+    }
+}
+
 /// Returns the tokens, each with its byte offset.
-pub(super) fn tokens(text: &str) -> Result<Vec<(usize, Token)>, ParseError> {
+fn split(text: &str) -> Result<Vec<(usize, Token)>, ParseError> {
     let mut tokens = Vec::new();
     let mut depth = 0usize;
     let mut at = 0;

@@ -9,10 +9,12 @@
 //! ```
 
 mod claim;
+mod definitions;
 mod excerpt;
 mod lex;
 mod parse;
 mod print;
+mod syntax;
 
 pub use claim::{ALWAYS_ASKED, Claim};
 pub(crate) use excerpt::{place, plain, pointed};

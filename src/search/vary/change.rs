@@ -69,7 +69,7 @@ pub(super) fn insert(rng: &mut ChaCha8Rng, draft: &mut Draft, grammar: &Grammar)
         output => output,
     };
     *edge_mut(draft, edge) = Arg::Result(at as u16);
-    // Every reader of the source may read the new value instead.
+    // Sometimes every later instruction reads the new value in place of the source.
     if let Arg::Result(_) | Arg::Input(_) = source
         && rng.random_range(0..4) == 0
     {
@@ -108,7 +108,7 @@ pub(super) fn grow(rng: &mut ChaCha8Rng, draft: &mut Draft) {
     *edge_mut(draft, edge) = Arg::Result((at + count - 1) as u16);
 }
 
-/// The factor or summand that growth begins with: it hardly changes the values, and the fit takes it from there. By
+/// The magnitude of a grown term's factor, which hardly changes the values until it is fitted. By
 /// hand.
 const SMALL: f32 = 1.0 / 256.0;
 

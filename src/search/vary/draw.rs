@@ -6,7 +6,7 @@ use crate::program::{Arg, Draft};
 use rand::RngExt;
 use rand_chacha::ChaCha8Rng;
 
-/// A random draft of a few instructions for each output.
+/// Makes `draft` a random one, with one to five instructions for each output.
 pub(in crate::search) fn random_draft(
     rng: &mut ChaCha8Rng,
     inputs: usize,
@@ -23,7 +23,7 @@ pub(in crate::search) fn random_draft(
     }
 }
 
-/// An instruction on random earlier values, the latest among them more often than not.
+/// Adds an instruction on random values, more often than not with the latest result among them.
 fn push_random(rng: &mut ChaCha8Rng, draft: &mut Draft, grammar: &Grammar) {
     let op = random_operation(rng, grammar);
     let earlier = draft.instrs.len();
@@ -34,6 +34,7 @@ fn push_random(rng: &mut ChaCha8Rng, draft: &mut Draft, grammar: &Grammar) {
     draft.push(op, &args);
 }
 
+/// Returns an operation of the grammar, by its rates.
 pub(super) fn random_operation(rng: &mut ChaCha8Rng, grammar: &Grammar) -> Op {
     let total: f64 = grammar.operations.iter().map(|(_, rate)| rate).sum();
     let mut pick = rng.random::<f64>() * total;
@@ -46,7 +47,7 @@ pub(super) fn random_operation(rng: &mut ChaCha8Rng, grammar: &Grammar) -> Op {
     grammar.operations[0].0
 }
 
-/// An input, an earlier result, or a new constant.
+/// Returns an input, one of the `earlier` results, or a new constant.
 pub(super) fn random_arg(rng: &mut ChaCha8Rng, draft: &mut Draft, earlier: usize) -> Arg {
     match rng.random_range(0..100) {
         0..45 => random_value(rng, draft, earlier),
@@ -56,7 +57,7 @@ pub(super) fn random_arg(rng: &mut ChaCha8Rng, draft: &mut Draft, earlier: usize
     }
 }
 
-/// An input, or now and then an earlier result.
+/// Returns an input, or now and then one of the `earlier` results.
 pub(super) fn random_value(rng: &mut ChaCha8Rng, draft: &Draft, earlier: usize) -> Arg {
     let values = draft.inputs + earlier / 3;
     match rng.random_range(0..values.max(1)) {
@@ -65,7 +66,7 @@ pub(super) fn random_value(rng: &mut ChaCha8Rng, draft: &Draft, earlier: usize) 
     }
 }
 
-/// Of either sign, its magnitude between 1/8 and 8, uniform in the logarithm.
+/// Returns a constant of either sign, its magnitude from 1/8 to 8 and uniform in the logarithm.
 pub(in crate::search) fn random_constant(rng: &mut ChaCha8Rng) -> f32 {
     let magnitude = rng.random_range(-3.0f32..3.0).exp2();
     if rng.random_range(0..100) < 65 { magnitude } else { -magnitude }

@@ -1,17 +1,19 @@
-//! Where a draft's values are read.
+//! The edges of a draft's graph, from values to their readers.
 
 use crate::program::{Arg, Draft};
 use rand::RngExt;
 use rand_chacha::ChaCha8Rng;
 
-/// Somewhere that a value is read: an argument, or an output.
+/// An edge, by its reader.
 #[derive(Clone, Copy)]
 pub(super) enum Edge {
+    /// The instruction of the first index, its argument of the second.
     Argument(usize, usize),
+    /// The output of this index.
     Output(usize),
 }
 
-/// A random edge of the instructions from `first` on, or of the outputs.
+/// Returns a random edge to an instruction from `first` on or to an output.
 pub(super) fn pick_edge(rng: &mut ChaCha8Rng, draft: &Draft, first: usize) -> Edge {
     let arguments: usize = draft.instrs[first..].iter().map(|instr| instr.args().len()).sum();
     let mut pick = rng.random_range(0..arguments + draft.outputs.len());
@@ -31,7 +33,7 @@ pub(super) fn edge_mut(draft: &mut Draft, edge: Edge) -> &mut Arg {
     }
 }
 
-/// The instructions before the reader.
+/// Returns the number of instructions before the reader, whose results it may read.
 pub(super) fn earlier_than(draft: &Draft, edge: Edge) -> usize {
     match edge {
         Edge::Argument(i, _) => i,
@@ -39,7 +41,7 @@ pub(super) fn earlier_than(draft: &Draft, edge: Edge) -> usize {
     }
 }
 
-/// Renumbers results from `first` on, `by` instructions later.
+/// Renumbers the results from `first` on, for `by` instructions that will be inserted there.
 pub(super) fn shift_results(draft: &mut Draft, first: usize, by: u16) {
     let shift = |arg: &mut Arg| {
         if let Arg::Result(i) = arg

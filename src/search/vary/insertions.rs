@@ -1,11 +1,11 @@
-//! Every draft that is one instruction larger than another.
+//! All drafts that are one instruction larger than another.
 
 use super::edge::{Edge, earlier_than, edge_mut, shift_results};
 use crate::grammar::Grammar;
 use crate::op::MAX_ARITY;
 use crate::program::{Arg, Draft, Instr};
 
-/// How many [`insertions`] visits.
+/// Returns the number of drafts that [`insertions`] visits.
 pub(in crate::search) fn insertion_count(draft: &Draft, grammar: &Grammar) -> usize {
     let count = |edge: Edge| -> usize {
         let sources = draft.inputs + earlier_than(draft, edge) + 1;
@@ -22,8 +22,9 @@ fn edges(draft: &Draft) -> impl Iterator<Item = Edge> {
         .chain((0..draft.outputs.len()).map(Edge::Output))
 }
 
-/// Every draft that one more instruction makes of this one: any operation of the grammar, at any edge,
-/// its other arguments inputs, earlier results, or new constants. Not all differ in structure.
+/// Visits every draft that one more instruction makes of this one: any operation of the grammar, at
+/// any edge, with inputs, earlier results or new constants as its other arguments. Not all differ
+/// in structure.
 pub(in crate::search) fn insertions(
     draft: &Draft,
     grammar: &Grammar,
@@ -36,7 +37,7 @@ pub(in crate::search) fn insertions(
         shift_results(&mut grown, at, 1);
         *edge_mut(&mut grown, edge) = Arg::Result(at as u16);
         let constants = grown.consts.len();
-        // As many new constants as an instruction can read, each one apart.
+        // A constant for each argument that may read one, all different.
         grown.consts.extend((0..MAX_ARITY).map(|i| 0.75 + (constants + i) as f32));
         for &(op, _) in &grammar.operations {
             for place in 0..op.arity() {

@@ -19,8 +19,8 @@ use edge::{edge_mut, pick_edge, shift_results};
 use rand::RngExt;
 use rand_chacha::ChaCha8Rng;
 
-/// The kinds of change, each with how often it is made relative to the others, until it is known how
-/// often it pays.
+/// The kinds of change, each with its relative rate as long as nothing is known of its success.
+/// Chosen by hand, unmeasured.
 const MOVES: [(Move, f64); 9] = [
     (Move::Operation, 15.0),
     (Move::Argument, 20.0),
@@ -43,20 +43,20 @@ enum Move {
     Constant,
     /// A new instruction between a source and its reader.
     Insert,
-    /// A small multiple of a value, or of a product, added to a source: the child begins as good as
-    /// its parent, and fitting can only better it.
+    /// A small multiple of a value or product, added to a source: the child starts about as good as
+    /// its parent, and fitting improves on that.
     Grow,
     /// An instruction replaced by one of its arguments.
     Delete,
     /// A copy of a donor's instructions, read by one argument or output.
     Graft,
-    /// An output as the donor has it.
+    /// A copy of the donor's instructions for an output, in place of the child's.
     TakeOutput,
-    /// An input or result where a constant was, or the other way round.
+    /// An input or result in place of a constant, or vice versa.
     ExchangeConstant,
 }
 
-/// Makes children of drafts; owns the memory that it needs.
+/// The variation of drafts, with the memory that it needs.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Variation {
     piece: Draft,
@@ -65,12 +65,13 @@ pub(super) struct Variation {
 }
 
 impl Variation {
-    /// Changes go by these rates from now on.
+    /// Sets the rates of the changes from now on.
     pub fn follow(&mut self, rates: &Rates) {
         self.weights = rates.weights();
     }
 
-    /// Changes `child`, a copy of its parent, by one move or a few; says which, a bit for each kind.
+    /// Changes `child`, a copy of its parent, by one or a few moves. Returns their kinds, each as
+    /// the bit of its index in [`MOVES`].
     pub fn vary(
         &mut self,
         rng: &mut ChaCha8Rng,
@@ -135,7 +136,8 @@ impl Variation {
         child.outputs[output] = value;
     }
 
-    /// Copies what `root` depends on in the donor to the front of `child`; gives the copy.
+    /// Copies `root` and all that it depends on from the donor to the front of `child`. Returns the
+    /// copy of `root`.
     fn copy_in(&mut self, child: &mut Draft, donor: &Draft, root: Arg) -> Arg {
         let whole = Draft { outputs: vec![root], ..donor.clone() };
         effective_into(&whole, &mut self.piece, &mut self.scratch);

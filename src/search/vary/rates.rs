@@ -1,28 +1,28 @@
-//! How often each kind of change is made: by how often it has paid.
+//! The rates at which the kinds of change are made, by their success.
 
 use super::MOVES;
 use crate::search::loaded::not_negative;
 use serde::{Deserialize, Serialize};
 
-/// How often each kind of change has led to a fit lately, and how often to an admission.
+/// The recent fits of each kind of change, and the admissions that came of them.
 #[derive(Clone, Debug, Default, Serialize, Deserialize)]
 pub(in crate::search) struct Rates {
     fitted: [f64; MOVES.len()],
     admitted: [f64; MOVES.len()],
 }
 
-/// The share of what was known a generation ago that still counts. By hand.
+/// The share of the counts that outlasts a generation. By hand.
 const MEMORY: f64 = 0.9;
 
-/// A kind that pays more often than the others is made more often, up to so many times. By hand: no kind may
-/// crowd out the others.
+/// The largest factor by which success raises a kind's rate, or failure lowers it: no kind may
+/// crowd out the others. By hand.
 const MAX_FAVOURED: f64 = 1.7;
 
-/// Fits that are made up for each kind, so that nothing is concluded from a few. By hand.
+/// The number of fits of average success presumed of each kind, lest a few decide. By hand.
 const PRIOR: f64 = 50.0;
 
 impl Rates {
-    /// Notes what became of a child, given the kinds of change that made it.
+    /// Counts a fitted child for each kind of change that made it, a bit each in `made_by`.
     pub fn note(&mut self, made_by: u16, admitted: bool) {
         for kind in (0..MOVES.len()).filter(|kind| made_by >> kind & 1 == 1) {
             self.fitted[kind] += 1.0;
@@ -30,16 +30,17 @@ impl Rates {
         }
     }
 
-    /// Whether the counts are counts.
+    /// Checks that no count is negative or infinite.
     pub fn check(&self) -> Result<(), String> {
         self.fitted.iter().chain(&self.admitted).try_for_each(|count| not_negative("rate", *count))
     }
 
-    /// To be called after each generation.
+    /// Fades the counts, once in a generation.
     pub fn fade(&mut self) {
         self.fitted.iter_mut().chain(&mut self.admitted).for_each(|count| *count *= MEMORY);
     }
 
+    /// Returns the relative rate of each kind.
     pub(super) fn weights(&self) -> [f64; MOVES.len()] {
         let sum = |counts: &[f64]| counts.iter().sum::<f64>();
         let usual = (sum(&self.admitted) + 1.0) / (sum(&self.fitted) + 1.0);

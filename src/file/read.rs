@@ -1,8 +1,11 @@
-//! Reads files up to a limit; folders, devices, pipes and sockets are neither read nor replaced.
+//! Reads files up to a limit.
 
 use std::fs::{File, FileType};
 use std::io::{self, ErrorKind, Read};
 use std::path::Path;
+
+/// The most bytes of a file of settings, recipes or formulas. Chosen by hand.
+pub const LARGEST_TEXT: u64 = 1 << 24;
 
 /// Checks that a file may be put at `path`: there is nothing, a file, or a link.
 ///
@@ -41,12 +44,12 @@ pub fn read_file(path: &Path, most: u64) -> io::Result<Vec<u8>> {
     if bytes.len() as u64 > most { Err(too_long(most)) } else { Ok(bytes) }
 }
 
-/// Reads a text in UTF-8 of at most `most` bytes.
+/// Reads a text in UTF-8 of at most [`LARGEST_TEXT`] bytes.
 ///
 /// # Errors
 /// As [`read_file`]; bytes that are not UTF-8.
-pub fn read_text(path: &Path, most: u64) -> io::Result<String> {
-    String::from_utf8(read_file(path, most)?).map_err(|error| {
+pub fn read_text(path: &Path) -> io::Result<String> {
+    String::from_utf8(read_file(path, LARGEST_TEXT)?).map_err(|error| {
         let before = &error.as_bytes()[..error.utf8_error().valid_up_to()];
         let line = 1 + before.iter().filter(|&&byte| byte == b'\n').count();
         let reason = format!("it is not text in UTF-8 (line {line})");

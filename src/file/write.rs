@@ -1,6 +1,6 @@
-//! Writes files as a whole: a killed process leaves the old content or the new.
+//! Writes files as a whole.
 
-use super::kind::check_replaceable;
+use super::check_replaceable;
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 use std::sync::OnceLock;

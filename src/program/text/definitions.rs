@@ -1,0 +1,172 @@
+//! What a text has defined: its names, constants and results.
+
+use super::{FreeConstant, Names, Parsed, Scope};
+use crate::op::Op;
+use crate::program::{Arg, Draft, Instr, Program};
+use crate::suggest::did_you_mean;
+use std::collections::{HashMap, HashSet};
+
+/// What the statements up to here have defined. Its errors are messages without a place, because
+/// only the tokens have places.
+pub(super) struct Definitions {
+    draft: Draft,
+    names: Names,
+    /// The inputs' places in `names`.
+    inputs: HashMap<String, usize>,
+    outputs: HashSet<String>,
+    open: bool,
+    assigned: HashMap<String, Arg>,
+    last_assigned: Option<String>,
+    free: Vec<FreeConstant>,
+    free_places: HashMap<String, Arg>,
+    /// Numbers by their bits.
+    constants: HashMap<u32, Arg>,
+    /// Results by the instruction that computes them.
+    results: HashMap<Instr, Arg>,
+}
+
+impl Definitions {
+    pub(super) fn new(scope: Scope) -> Definitions {
+        let names = match scope {
+            Scope::Dataset(names) => names.clone(),
+            Scope::Open { outputs } => Names { inputs: Vec::new(), outputs: outputs.to_vec() },
+        };
+        Definitions {
+            draft: Draft::default(),
+            inputs: first_places(&names.inputs),
+            outputs: names.outputs.iter().cloned().collect(),
+            names,
+            open: matches!(scope, Scope::Open { .. }),
+            assigned: HashMap::new(),
+            last_assigned: None,
+            free: Vec::new(),
+            free_places: HashMap::new(),
+            constants: HashMap::new(),
+            results: HashMap::new(),
+        }
+    }
+
+    /// Returns a name that a statement may assign, as an example for messages.
+    pub(super) fn example(&self) -> &str {
+        self.names.outputs.first().map_or("y", String::as_str)
+    }
+
+    /// Checks that a statement may assign the name.
+    pub(super) fn check_assignable(&self, name: &str) -> Result<(), String> {
+        if self.inputs.contains_key(name) {
+            return Err(format!("`{name}` is an input, and cannot be assigned"));
+        }
+        if self.assigned.contains_key(name) {
+            return Err(format!("`{name}` is assigned twice"));
+        }
+        Ok(())
+    }
+
+    pub(super) fn assign(&mut self, name: String, value: Arg) {
+        self.assigned.insert(name.clone(), value);
+        self.last_assigned = Some(name);
+    }
+
+    pub(super) fn name(&mut self, name: String) -> Result<Arg, String> {
+        if let Some(value) = self.assigned.get(&name) {
+            return Ok(*value);
+        }
+        if let Some(&index) = self.inputs.get(&name) {
+            return Ok(Arg::Input(index as u16));
+        }
+        if self.outputs.contains(&name) {
+            return Err(format!("output `{name}` is used before it is assigned"));
+        }
+        if self.open {
+            let index = self.names.inputs.len();
+            self.room(index, "inputs")?;
+            self.inputs.insert(name.clone(), index);
+            self.names.inputs.push(name);
+            self.draft.inputs = index + 1;
+            return Ok(Arg::Input(index as u16));
+        }
+        let candidates = self.names.inputs.iter().chain(self.assigned.keys());
+        let hint = did_you_mean(&name, candidates.map(String::as_str));
+        let inputs = listed(&self.names.inputs);
+        Err(format!("unknown name `{name}`{hint} (inputs: {inputs})"))
+    }
+
+    pub(super) fn constant(&mut self, value: f32) -> Result<Arg, String> {
+        if let Some(&known) = self.constants.get(&value.to_bits()) {
+            return Ok(known);
+        }
+        self.room(self.draft.consts.len(), "numbers")?;
+        let constant = self.draft.constant(value);
+        self.constants.insert(value.to_bits(), constant);
+        Ok(constant)
+    }
+
+    pub(super) fn free_constant(&mut self, name: String) -> Result<Arg, String> {
+        if let Some(&known) = self.free_places.get(&name) {
+            return Ok(known);
+        }
+        self.room(self.draft.consts.len(), "constants")?;
+        let arg = self.draft.constant(1.0);
+        if let Arg::Const(index) = arg {
+            self.free_places.insert(name.clone(), arg);
+            self.free.push(FreeConstant { name, index });
+        }
+        Ok(arg)
+    }
+
+    /// Applies an operation, or returns the result if the formula has computed it already.
+    pub(super) fn apply(&mut self, op: Op, args: &[Arg]) -> Result<Arg, String> {
+        let instr = Instr::new(op, args);
+        if let Some(&known) = self.results.get(&instr) {
+            return Ok(known);
+        }
+        self.room(self.draft.instrs.len(), "operations")?;
+        let result = self.draft.push(op, args);
+        self.results.insert(instr, result);
+        Ok(result)
+    }
+
+    pub(super) fn finish(mut self) -> Result<Parsed, String> {
+        if self.open && self.names.outputs.is_empty() {
+            self.names.outputs.extend(self.last_assigned.clone());
+        }
+        if self.names.outputs.is_empty() {
+            return Err("the formula has no statement".to_owned());
+        }
+        self.draft.inputs = self.names.inputs.len();
+        for output in &self.names.outputs {
+            match self.assigned.get(output) {
+                Some(value) => self.draft.outputs.push(*value),
+                None => {
+                    let hint = did_you_mean(output, self.assigned.keys().map(String::as_str));
+                    return Err(format!("output `{output}` is never assigned{hint}"));
+                }
+            }
+        }
+        let program = Program::verify(self.draft).map_err(|invalid| invalid.to_string())?;
+        Ok(Parsed { program, names: self.names, free: self.free })
+    }
+
+    /// Checks that a program can hold one more.
+    fn room(&self, count: usize, what: &str) -> Result<(), String> {
+        if count < usize::from(u16::MAX) {
+            return Ok(());
+        }
+        Err(format!("too many {what}; a formula has at most {}", u16::MAX))
+    }
+}
+
+fn first_places(names: &[String]) -> HashMap<String, usize> {
+    let mut places = HashMap::new();
+    for (place, name) in names.iter().enumerate() {
+        places.entry(name.clone()).or_insert(place);
+    }
+    places
+}
+
+/// Lists the first few names.
+fn listed(names: &[String]) -> String {
+    const SHOWN: usize = 20;
+    let shown = names[..names.len().min(SHOWN)].join(", ");
+    if names.len() > SHOWN { format!("{shown}, …") } else { shown }
+}
