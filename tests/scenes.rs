@@ -248,7 +248,10 @@ const REFUSED: [(&str, &str); 33] = [
     ("quantisation: (bits: 8, tone_map: \"x/2\")", "quantisation: tone_map, over `y`"),
     ("quantisation: (bits: 8, tone_map: \"sqrt(y - 2)\")", "the tone map has no slope at"),
     ("fixed: {\"roughness\": NaN}", "fixed: NaN of `roughness` is no finite 32-bit float"),
-    ("ranges: {\"roughness\": (0, 1e300)}", "ranges: 1e300 of `roughness` is no finite 32-bit float"),
+    (
+        "ranges: {\"roughness\": (0, 1e300)}",
+        "ranges: 1e300 of `roughness` is no finite 32-bit float",
+    ),
     ("tiers: {\"low\": ()}", "tier `low` needs a max_cost, a max_error or both"),
 ];
 
