@@ -1,5 +1,15 @@
 //! Grammars: the operations that a search may write and how often it tries each, lengths,
 //! penalties.
+//!
+//! ```
+//! use lgp::grammar::Grammar;
+//! use lgp::op::Op;
+//!
+//! let mine = "(operations: {\"add\": 1, \"mul\": 2}, max_instructions: 8)";
+//! assert!(Grammar::parse("mine.ron", mine)?.has(Op::Mul));
+//! assert!(!Grammar::find("polynomial")?.has(Op::Sqrt));
+//! # Ok::<(), lgp::grammar::FileError>(())
+//! ```
 
 pub(crate) mod file;
 

@@ -4,6 +4,14 @@
 //! proofs and tests read it here. All else that is known of an operation (bulk kernel, derivative,
 //! cost, spelling in each language) is a `match` or a table keyed by [`Op`], complete by
 //! construction or by test.
+//!
+//! ```
+//! use lgp::op::Op;
+//!
+//! let mad = Op::from_name("mad").expect("a row of the table");
+//! assert_eq!(mad.apply([2.0f32, 3.0, 1.0, 0.0]), 7.0);
+//! assert!(mad.arity() == 3 && mad.commutes());
+//! ```
 
 mod accuracy;
 

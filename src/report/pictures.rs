@@ -138,9 +138,10 @@ fn maps(report: &Report, dataset: &Dataset, knee: &FrontMember) -> Option<Maps> 
             .collect(),
     };
     let axes = maps::axes(dataset);
+    let errors = if dataset.outputs.len() > 1 { ", RMSE over all outputs" } else { "" };
     Some(Maps {
         title: format!("{}: formulas and the truth", report.run.name),
-        subtitle: format!("{axes}; cycles on {}, RMSE over all outputs", report.run.gpu),
+        subtitle: format!("{axes}; cycles on {}{errors}", report.run.gpu),
         columns: shown
             .iter()
             .map(|(lines, _)| lines.clone())

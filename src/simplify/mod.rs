@@ -15,6 +15,17 @@
 //! are taken as free: `(x + c₁) + c₂` becomes `x + c₃`. Rounding may change: callers that need the
 //! value evaluate the result. A simplified program has no operation that does nothing, none on
 //! constants alone unless its value is not finite (`1/0`), and is its own simplification.
+//!
+//! ```
+//! use lgp::program::{Draft, Names, Program, parse, print};
+//! use lgp::simplify::Simplifier;
+//!
+//! let names = Names::new(["x"], ["y"]);
+//! let mut simple = Draft::default();
+//! Simplifier::default().simplify(&parse("y = exp2(log2(x)) + 1 + 2", &names)?, &mut simple);
+//! assert_eq!(print(&Program::verify(simple)?, &names), "y = x + 3");
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
 
 mod fold;
 mod identities;
