@@ -12,7 +12,7 @@
 //! |---|---|
 //! | [`deadline`] | when work ends before it is done |
 //! | [`printable`], [`suggest`] | text from elsewhere made harmless; the nearest known name |
-//! | [`file`] | files read up to a limit, and written as a whole |
+//! | [`mod@file`] | files read up to a limit, and written as a whole |
 //! | [`num`] | registers of lanes, and mathematics with the same bits at every width; low-discrepancy points, sums |
 //! | [`op`] | the one table of operations, and what they mean |
 //! | [`program`] | instructions, verified programs, outer forms, effective code, hashes, formula text |
