@@ -21,8 +21,9 @@
 //! use lgp::simplify::Simplifier;
 //!
 //! let names = Names::new(["x"], ["y"]);
+//! let formula = parse("y = exp2(log2(x)) + 1 + 2", &names)?;
 //! let mut simple = Draft::default();
-//! Simplifier::default().simplify(&parse("y = exp2(log2(x)) + 1 + 2", &names)?, &mut simple);
+//! Simplifier::default().simplify(&formula, &mut simple);
 //! assert_eq!(print(&Program::verify(simple)?, &names), "y = x + 3");
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
