@@ -196,6 +196,44 @@ fn text_means_what_the_grammar_says() {
 }
 
 #[test]
+fn text_is_read_as_shader_programmers_write_it() {
+    let names = Names::new(["x", "y"], ["f"]);
+    let value = |text: &str, x: f32, y: f32| parse(text, &names).unwrap().evaluate(&[x, y])[0];
+    let check = |text: &str, at: [f32; 2], expected: f32| {
+        let found = value(&format!("f = {text}"), at[0], at[1]);
+        assert!((found - expected).abs() <= 1e-6 * expected.abs(), "{text}: {found}");
+    };
+    check("1.0f*x + .5h - 1e-1F*y", [2.0, 10.0], 1.5);
+    check("pow(x, 2.0) // a square", [3.0, 0.0], 9.0);
+    check("mix(x, y, 0.25)", [2.0, 6.0], 3.0);
+    check("frac(x) + inversesqrt(y)", [2.25, 4.0], 0.75);
+    check("atan(y, x)", [-1.0, 0.0], std::f32::consts::PI);
+    check("atan(y)", [0.0, 1.0], std::f32::consts::FRAC_PI_4);
+    for (x, clamped) in [(-3.0, -1.0), (0.5, 0.5), (9.0, 2.0)] {
+        check("clamp(x, -1.0, 2.0)", [x, 0.0], clamped);
+    }
+    for (x, step) in [(0.5, 0.0), (1.0, 0.0), (1.5, 0.15625), (2.0, 0.5), (3.0, 1.0), (4.0, 1.0)] {
+        check("smoothstep(1.0, 3.0, x)", [x, 0.0], step);
+    }
+    check("mod(x, 3.0)", [-1.0, 0.0], 2.0);
+    check("ceil(x)*10 + ceil(y)", [1.25, -1.25], 19.0);
+    check("degrees(radians(x)) + log10(y)", [30.0, 1000.0], 33.0);
+    for (sign, at) in [("<", [1, 2, 2]), ("<=", [1, 1, 2]), (">", [2, 2, 1]), (">=", [2, 1, 1])] {
+        for (y, expected) in [(3.0, at[0]), (2.0, at[1]), (1.0, at[2])] {
+            check(&format!("x {sign} y ? 1 : 2"), [2.0, y], expected as f32);
+            check(&format!("3*((x + 0) {sign} y ? 1 : 2)"), [2.0, y], 3.0 * expected as f32);
+            check(&format!("(x {sign} (y)) ? 1 : 2"), [2.0, y], expected as f32);
+            check(&format!("select(x {sign} y, 1, 2)"), [2.0, y], expected as f32);
+        }
+    }
+    let nested = "x < 1 ? 10 : x < 2 ? 20 : y > 0 ? 30 : 40";
+    for (at, expected) in [([0.5, 0.0], 10.0), ([1.5, 0.0], 20.0), ([3.0, 1.0], 30.0)] {
+        check(nested, at, expected);
+    }
+    check("(x < 1 ? 1 : 2) < y ? 5 : 6", [0.0, 1.5], 5.0);
+}
+
+#[test]
 fn errors_say_where_and_what_was_meant() {
     let names = Names::new(["n_dot_v", "roughness"], ["bias"]);
     let error = |text: &str| parse(text, &names).unwrap_err().to_string();
@@ -213,12 +251,22 @@ fn errors_say_where_and_what_was_meant() {
         ("bias = $a*roughness", "free constant"),
         ("bias = 1e99", "too large"),
         ("bias = add(1, 2)", "no function form"),
-        ("bias = roughness ? 1", "no meaning"),
+        ("bias = roughness ? 1 : 2", "`?` needs a comparison before it"),
+        ("bias = roughness < 1 ? 2", "expected `:` between the two values"),
+        ("bias = roughness < 1", "expected `?` after the condition"),
+        ("bias = roughness == 1 ? 2 : 3", "expected an operator"),
+        ("bias = clmap(roughness, 0, 1)", "did you mean `clamp`?"),
+        ("bias = clamp(roughness)", "`clamp` takes 3 arguments, not 1"),
+        ("bias = mix(roughness)", "`mix` takes 3 arguments, not 1"),
+        ("bias = 2fx", "expected an operator"),
+        ("bias = roughness @ 1", "no meaning"),
+        (&format!("bias = {}", "1 < 2 ? 3 : ".repeat(50_000)), "nested more than"),
+        (&format!("bias = {}", "mix(".repeat(100_000)), "nested more than"),
         (&format!("bias = {}", "(".repeat(100_000)), "nested more than"),
         (&format!("bias = {}1", "-".repeat(100_000)), "nested more than"),
         ("t = 1;\nbias = nope", "line 2, column 8"),
     ] {
         let message = error(text);
-        assert!(message.contains(expected), "{text}: {message}");
+        assert!(message.contains(expected), "{text:.80}: {message}");
     }
 }

@@ -1,7 +1,7 @@
 //! What a text has defined: its names, constants and results.
 
 use super::{FreeConstant, Names, Parsed, Scope};
-use crate::op::Op;
+use crate::op::{MAX_ARITY, Op};
 use crate::program::{Arg, Draft, Instr, Program};
 use crate::suggest::did_you_mean;
 use std::collections::{HashMap, HashSet};
@@ -124,6 +124,33 @@ impl Definitions {
         let result = self.draft.push(op, args);
         self.results.insert(instr, result);
         Ok(result)
+    }
+
+    /// Writes out a program over values of this formula, and returns its first output.
+    pub(super) fn write_out(&mut self, program: &Program, inputs: &[Arg]) -> Result<Arg, String> {
+        let mut results = Vec::with_capacity(program.instrs.len());
+        for instr in &program.instrs {
+            let mut args = [Arg::Input(0); MAX_ARITY];
+            for (to, &arg) in args.iter_mut().zip(instr.args()) {
+                *to = self.written_out(arg, program, inputs, &results)?;
+            }
+            results.push(self.apply(instr.op(), &args)?);
+        }
+        self.written_out(program.outputs[0], program, inputs, &results)
+    }
+
+    fn written_out(
+        &mut self,
+        arg: Arg,
+        program: &Program,
+        inputs: &[Arg],
+        results: &[Arg],
+    ) -> Result<Arg, String> {
+        match arg {
+            Arg::Input(index) => Ok(inputs[usize::from(index)]),
+            Arg::Result(index) => Ok(results[usize::from(index)]),
+            Arg::Const(index) => self.constant(program.consts[usize::from(index)]),
+        }
     }
 
     pub(super) fn finish(mut self) -> Result<Parsed, String> {

@@ -9,7 +9,7 @@ pub(super) enum Token {
     /// `$name`
     Free(String),
     Number(f32),
-    /// One of `+ - * / ^ ( ) , = < >`
+    /// One of `+ - * / ^ ( ) , = < > ? :`
     Symbol(char),
     /// `;` or a new line
     End,
@@ -62,6 +62,28 @@ impl Tokens<'_> {
         result.or_else(|message| self.error(offset, message))
     }
 
+    /// Returns true if the next token opens parentheses that hold a condition: a comparison within
+    /// them, and `?` after them.
+    pub(super) fn open_condition(&self) -> bool {
+        if self.peek() != Some(&Token::Symbol('(')) {
+            return false;
+        }
+        let (mut depth, mut compares) = (0, false);
+        for (at, (_, token)) in self.all.iter().enumerate().skip(self.next) {
+            match token {
+                Token::Symbol('(') => depth += 1,
+                Token::Symbol(')') => depth -= 1,
+                Token::Symbol('<' | '>') if depth == 1 => compares = true,
+                _ => {}
+            }
+            if depth == 0 {
+                let after = self.all.get(at + 1).map(|(_, token)| token);
+                return compares && after == Some(&Token::Symbol('?'));
+            }
+        }
+        false
+    }
+
     pub(super) fn take_symbol(&mut self, symbol: char) -> bool {
         let found = self.peek() == Some(&Token::Symbol(symbol));
         self.next += usize::from(found);
@@ -89,11 +111,11 @@ fn split(text: &str) -> Result<Vec<(usize, Token)>, ParseError> {
             '\n' if depth > 0 => continue,
             ';' | '\n' => Token::End,
             c if c.is_whitespace() => continue,
-            '#' => {
+            c if c == '#' || text[start..].starts_with("//") => {
                 at += text[at..].find('\n').unwrap_or(text.len() - at);
                 continue;
             }
-            '+' | '-' | '*' | '/' | '^' | ',' | '=' | '<' | '>' => Token::Symbol(c),
+            '+' | '-' | '*' | '/' | '^' | ',' | '=' | '<' | '>' | '?' | ':' => Token::Symbol(c),
             '(' => {
                 depth += 1;
                 Token::Symbol(c)
@@ -103,8 +125,9 @@ fn split(text: &str) -> Result<Vec<(usize, Token)>, ParseError> {
                 Token::Symbol(c)
             }
             '0'..='9' | '.' => {
-                at = start + number_length(&text[start..]);
-                Token::Number(number(text, start, at)?)
+                let end = start + number_length(&text[start..]);
+                at = end + suffix_length(&text[end..]);
+                Token::Number(number(text, start, end)?)
             }
             '$' => {
                 at += name_length(&text[at..]);
@@ -150,6 +173,11 @@ fn number_length(text: &str) -> usize {
         }
     }
     length
+}
+
+/// Returns the length of the suffix that some shading languages want: `1.0f`, `0.5h`.
+fn suffix_length(text: &str) -> usize {
+    usize::from(name_length(text) == 1 && text.starts_with(['f', 'F', 'h', 'H']))
 }
 
 fn number(text: &str, start: usize, end: usize) -> Result<f32, ParseError> {

@@ -11,6 +11,7 @@
 mod claim;
 mod definitions;
 mod excerpt;
+mod functions;
 mod lex;
 mod parse;
 mod print;

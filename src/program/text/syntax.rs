@@ -1,6 +1,7 @@
 //! Parses statements and expressions from tokens, by recursive descent.
 
 use super::definitions::Definitions;
+use super::functions::{self, Function};
 use super::lex::{Token, Tokens};
 use super::{ParseError, Parsed, Scope};
 use crate::op::Op;
@@ -22,6 +23,12 @@ struct Parser<'a> {
     definitions: Definitions,
 }
 
+/// A comparison as the table has it: `less[0] < less[1]`, or not that.
+struct Condition {
+    less: [Arg; 2],
+    negated: bool,
+}
+
 /// The deepest nesting of parentheses, calls and signs: each level takes some of the stack.
 const MAX_DEPTH: usize = 200;
 
@@ -39,11 +46,13 @@ impl Parser<'_> {
             self.statement()?;
             match self.tokens.peek() {
                 None | Some(Token::End) => {}
+                Some(Token::Symbol('?')) => {
+                    let message = "`?` needs a comparison before it, as in `a < b ? x : y`";
+                    return self.tokens.error(self.tokens.offset(), message);
+                }
                 Some(_) => {
-                    return self.tokens.error(
-                        self.tokens.offset(),
-                        "expected an operator, or `;` before the next statement",
-                    );
+                    let message = "expected an operator, or `;` before the next statement";
+                    return self.tokens.error(self.tokens.offset(), message);
                 }
             }
         }
@@ -60,9 +69,54 @@ impl Parser<'_> {
         };
         self.tokens.skip(2);
         self.tokens.placed(start, self.definitions.check_assignable(&name))?;
-        let value = self.sum()?;
+        let value = self.expression()?;
         self.definitions.assign(name, value);
         Ok(())
+    }
+
+    /// Parses a sum, or a choice `a < b ? x : y`.
+    fn expression(&mut self) -> Parse<Arg> {
+        let condition = if self.tokens.open_condition() {
+            self.tokens.skip(1);
+            let left = self.sum()?;
+            let condition = self.comparison(left)?;
+            self.tokens.expect(')', "after the condition")?;
+            condition
+        } else {
+            let value = self.sum()?;
+            if !matches!(self.tokens.peek(), Some(Token::Symbol('<' | '>'))) {
+                return Ok(value);
+            }
+            self.comparison(value)?
+        };
+        self.tokens.expect('?', "after the condition, as in `a < b ? x : y`")?;
+        let yes = self.nested(Parser::expression)?;
+        self.tokens.expect(':', "between the two values, as in `a < b ? x : y`")?;
+        let no = self.nested(Parser::expression)?;
+        self.choose(condition, yes, no)
+    }
+
+    /// Parses a comparison from its operator on.
+    fn comparison(&mut self, left: Arg) -> Parse<Condition> {
+        let less = self.tokens.take_symbol('<');
+        if !less {
+            self.tokens
+                .expect('<', "or `>` in the condition, as in `a < b`")
+                .or_else(|e| if self.tokens.take_symbol('>') { Ok(()) } else { Err(e) })?;
+        }
+        let or_equal = self.tokens.take_symbol('=');
+        let right = self.sum()?;
+        // `a <= b` is read as not `b < a`: the same but for NaN.
+        Ok(match less != or_equal {
+            true => Condition { less: [left, right], negated: or_equal },
+            false => Condition { less: [right, left], negated: or_equal },
+        })
+    }
+
+    fn choose(&mut self, condition: Condition, yes: Arg, no: Arg) -> Parse<Arg> {
+        let Condition { less: [a, b], negated } = condition;
+        let [holds, fails] = if negated { [no, yes] } else { [yes, no] };
+        self.apply(Op::Select, &[a, b, holds, fails])
     }
 
     fn sum(&mut self) -> Parse<Arg> {
@@ -93,8 +147,12 @@ impl Parser<'_> {
         }
     }
 
-    /// Counts the depth: every nesting passes through here.
     fn negation(&mut self) -> Parse<Arg> {
+        self.nested(Parser::signed_power)
+    }
+
+    /// Counts the depth: every nesting passes through here.
+    fn nested(&mut self, parse: fn(&mut Self) -> Parse<Arg>) -> Parse<Arg> {
         if self.depth == MAX_DEPTH {
             return self.tokens.error(
                 self.tokens.offset(),
@@ -102,7 +160,7 @@ impl Parser<'_> {
             );
         }
         self.depth += 1;
-        let value = self.signed_power();
+        let value = parse(self);
         self.depth -= 1;
         value
     }
@@ -201,7 +259,7 @@ impl Parser<'_> {
             Token::Number(value) => self.constant(value, at),
             Token::Free(name) => self.tokens.placed(at, self.definitions.free_constant(name)),
             Token::Symbol('(') => {
-                let value = self.sum()?;
+                let value = self.expression()?;
                 self.tokens.expect(')', "to close the parenthesis")?;
                 Ok(value)
             }
@@ -215,53 +273,52 @@ impl Parser<'_> {
     }
 
     fn call(&mut self, name: &str, at: usize) -> Parse<Arg> {
-        let op = match name {
-            "fma" => Op::Mad,
-            "add" | "sub" | "mul" | "div" | "neg" => {
-                let message = format!("`{name}` has no function form; write + - * /");
-                return self.tokens.error(at, message);
-            }
-            _ => match Op::from_name(name) {
-                Some(op) => op,
-                None => {
-                    let hint = did_you_mean(name, Op::ALL.iter().map(|op| op.name()));
-                    return self.tokens.error(at, format!("unknown operation `{name}`{hint}"));
-                }
-            },
-        };
-        let args = if op == Op::Select { self.select_arguments()? } else { self.arguments()? };
-        if args.len() != op.arity() {
-            let (given, wanted) = (args.len(), op.arity());
-            let plural = if wanted == 1 { "" } else { "s" };
-            let message = format!("`{op}` takes {wanted} argument{plural}, not {given}");
+        if let "add" | "sub" | "mul" | "div" | "neg" = name {
+            let message = format!("`{name}` has no function form; write + - * /");
             return self.tokens.error(at, message);
         }
-        self.apply(op, &args)
+        if name == Op::Select.name() {
+            return self.select();
+        }
+        if functions::find(name, 0).is_none() {
+            let hint = did_you_mean(name, functions::names());
+            return self.tokens.error(at, format!("unknown operation `{name}`{hint}"));
+        }
+        let args = self.arguments()?;
+        let function = functions::find(name, args.len()).expect("as before");
+        if args.len() != function.arity() {
+            let (given, wanted) = (args.len(), function.arity());
+            let plural = if wanted == 1 { "" } else { "s" };
+            let message = format!("`{name}` takes {wanted} argument{plural}, not {given}");
+            return self.tokens.error(at, message);
+        }
+        match function {
+            Function::Operation(op) => self.apply(op, &args),
+            Function::Formula(program) => {
+                self.tokens.placed(at, self.definitions.write_out(&program, &args))
+            }
+        }
     }
 
     fn arguments(&mut self) -> Parse<Vec<Arg>> {
-        let mut args = vec![self.sum()?];
+        let mut args = vec![self.expression()?];
         while self.tokens.take_symbol(',') {
-            args.push(self.sum()?);
+            args.push(self.expression()?);
         }
         self.tokens.expect(')', "after the arguments")?;
         Ok(args)
     }
 
-    /// `a < b, x, y)`, or with `>`.
-    fn select_arguments(&mut self) -> Parse<Vec<Arg>> {
+    /// Parses `a < b, x, y)`.
+    fn select(&mut self) -> Parse<Arg> {
         let left = self.sum()?;
-        let less = self.tokens.take_symbol('<');
-        if !less {
-            self.tokens
-                .expect('<', "or `>` in the condition of `select(a < b, x, y)`")
-                .or_else(|e| if self.tokens.take_symbol('>') { Ok(()) } else { Err(e) })?;
-        }
-        let right = self.sum()?;
-        let mut args = if less { vec![left, right] } else { vec![right, left] };
+        let condition = self.comparison(left)?;
         self.tokens.expect(',', "after the condition of `select(a < b, x, y)`")?;
-        args.extend(self.arguments()?);
-        Ok(args)
+        let yes = self.expression()?;
+        self.tokens.expect(',', "between the values of `select(a < b, x, y)`")?;
+        let no = self.expression()?;
+        self.tokens.expect(')', "after the arguments")?;
+        self.choose(condition, yes, no)
     }
 
     fn constant(&mut self, value: f32, at: usize) -> Parse<Arg> {

@@ -1,0 +1,60 @@
+//! Functions of shading languages beyond the table of operations: other names, and formulas.
+
+use super::{Names, parse};
+use crate::op::Op;
+use crate::program::Program;
+
+/// Operations under the names that shading languages have for them.
+const RENAMED: [(&str, Op); 4] =
+    [("fma", Op::Mad), ("frac", Op::Fract), ("inversesqrt", Op::Rsqrt), ("mix", Op::Lerp)];
+
+/// Functions that formulas are written out for: name, parameters, meaning. As in GLSL (GLSL 4.60
+/// specification, §8.1 to 8.3); `log10` as in HLSL.
+const FORMULAS: [(&str, &[&str], &str); 7] = [
+    ("ceil", &["x"], "y = -floor(-x)"),
+    ("clamp", &["x", "low", "high"], "y = min(max(x, low), high)"),
+    ("degrees", &["x"], "y = 57.29578*x"),
+    ("log10", &["x"], "y = 0.30103*log2(x)"),
+    ("mod", &["x", "m"], "y = x - m*floor(x/m)"),
+    ("radians", &["x"], "y = 0.017453293*x"),
+    (
+        "smoothstep",
+        &["low", "high", "x"],
+        "t = saturate((x - low)/(high - low)); y = t*t*(3 - 2*t)",
+    ),
+];
+
+/// What a name before `(` means.
+pub(super) enum Function {
+    Operation(Op),
+    /// A program over the arguments.
+    Formula(Program),
+}
+
+impl Function {
+    pub(super) fn arity(&self) -> usize {
+        match self {
+            Function::Operation(op) => op.arity(),
+            Function::Formula(program) => program.inputs,
+        }
+    }
+}
+
+/// Returns the function of this name for so many arguments; any number of them finds one that exists.
+pub(super) fn find(name: &str, arguments: usize) -> Option<Function> {
+    if let Some((_, parameters, text)) = FORMULAS.iter().find(|(known, ..)| *known == name) {
+        let names = Names::new(parameters.iter().copied(), ["y"]);
+        return Some(Function::Formula(parse(text, &names).expect("a formula of the table")));
+    }
+    let renamed = RENAMED.iter().find(|(known, _)| *known == name).map(|(_, op)| *op);
+    let op = renamed.or_else(|| Op::from_name(name))?;
+    // GLSL has one name for both.
+    let two = op == Op::Atan && arguments == 2;
+    Some(Function::Operation(if two { Op::Atan2 } else { op }))
+}
+
+/// Returns all names of functions.
+pub(super) fn names() -> impl Iterator<Item = &'static str> {
+    let operations = Op::ALL.iter().map(|op| op.name());
+    operations.chain(RENAMED.map(|(name, _)| name)).chain(FORMULAS.map(|(name, ..)| name))
+}
