@@ -32,6 +32,24 @@ pub(super) enum Function {
 }
 
 impl Function {
+    /// Returns the function of this name.
+    pub(super) fn find(name: &str) -> Option<Function> {
+        if let Some((_, parameters, text)) = FORMULAS.iter().find(|(known, ..)| *known == name) {
+            let names = Names::new(parameters.iter().copied(), ["y"]);
+            return Some(Function::Formula(parse(text, &names).expect("a formula of the table")));
+        }
+        let renamed = RENAMED.iter().find(|(known, _)| *known == name).map(|(_, op)| *op);
+        renamed.or_else(|| Op::from_name(name)).map(Function::Operation)
+    }
+
+    /// Returns it as it is meant for so many arguments: `atan` of two is `atan2`, as in GLSL.
+    pub(super) fn of_arguments(self, count: usize) -> Function {
+        match (self, count) {
+            (Function::Operation(Op::Atan), 2) => Function::Operation(Op::Atan2),
+            (function, _) => function,
+        }
+    }
+
     pub(super) fn arity(&self) -> usize {
         match self {
             Function::Operation(op) => op.arity(),
@@ -40,21 +58,23 @@ impl Function {
     }
 }
 
-/// Returns the function of this name for so many arguments; any number of them finds one that exists.
-pub(super) fn find(name: &str, arguments: usize) -> Option<Function> {
-    if let Some((_, parameters, text)) = FORMULAS.iter().find(|(known, ..)| *known == name) {
-        let names = Names::new(parameters.iter().copied(), ["y"]);
-        return Some(Function::Formula(parse(text, &names).expect("a formula of the table")));
-    }
-    let renamed = RENAMED.iter().find(|(known, _)| *known == name).map(|(_, op)| *op);
-    let op = renamed.or_else(|| Op::from_name(name))?;
-    // GLSL has one name for both.
-    let two = op == Op::Atan && arguments == 2;
-    Some(Function::Operation(if two { Op::Atan2 } else { op }))
-}
-
 /// Returns all names of functions.
 pub(super) fn names() -> impl Iterator<Item = &'static str> {
     let operations = Op::ALL.iter().map(|op| op.name());
     operations.chain(RENAMED.map(|(name, _)| name)).chain(FORMULAS.map(|(name, ..)| name))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_name_means_one_function() {
+        let mut known: Vec<&str> = names().collect();
+        assert!(known.iter().all(|name| Function::find(name).is_some_and(|f| f.arity() > 0)));
+        let count = known.len();
+        known.sort_unstable();
+        known.dedup();
+        assert_eq!(known.len(), count);
+    }
 }

@@ -126,7 +126,7 @@ fn split(text: &str) -> Result<Vec<(usize, Token)>, ParseError> {
             }
             '0'..='9' | '.' => {
                 let end = start + number_length(&text[start..]);
-                at = end + suffix_length(&text[end..]);
+                at = end + suffix_length(&text[start..end], &text[end..]);
                 Token::Number(number(text, start, end)?)
             }
             '$' => {
@@ -175,9 +175,11 @@ fn number_length(text: &str) -> usize {
     length
 }
 
-/// Returns the length of the suffix that some shading languages want: `1.0f`, `0.5h`.
-fn suffix_length(text: &str) -> usize {
-    usize::from(name_length(text) == 1 && text.starts_with(['f', 'F', 'h', 'H']))
+/// Returns the length of the suffix that some shading languages want: `1.0f`, `1e-3h`. Not after
+/// `2`, where a letter may be a column that someone meant to multiply.
+fn suffix_length(number: &str, after: &str) -> usize {
+    let is_float = number.contains(['.', 'e', 'E']);
+    usize::from(is_float && name_length(after) == 1 && after.starts_with(['f', 'F', 'h', 'H']))
 }
 
 fn number(text: &str, start: usize, end: usize) -> Result<f32, ParseError> {

@@ -280,12 +280,12 @@ impl Parser<'_> {
         if name == Op::Select.name() {
             return self.select();
         }
-        if functions::find(name, 0).is_none() {
+        let Some(function) = Function::find(name) else {
             let hint = did_you_mean(name, functions::names());
             return self.tokens.error(at, format!("unknown operation `{name}`{hint}"));
-        }
+        };
         let args = self.arguments()?;
-        let function = functions::find(name, args.len()).expect("as before");
+        let function = function.of_arguments(args.len());
         if args.len() != function.arity() {
             let (given, wanted) = (args.len(), function.arity());
             let plural = if wanted == 1 { "" } else { "s" };
