@@ -24,9 +24,11 @@
 //! | [`stability`] | verdicts: what is proved of a formula over its whole domain, or refuted |
 //! | [`archive`] | the Pareto archive |
 //! | [`scene`] | what a use needs of a dataset: ranges, fixed inputs, histograms, combined outputs |
+//! | [`truth`] | functions that can be evaluated anywhere, and where they are sampled |
 //! | [`search`] | problems and methods, islands, variation, fronts |
 //! | [`emit`] | formulas as HLSL, WGSL, GLSL, MSL, Slang, and back; as C, Rust, Python, LaTeX |
 //! | [`wording`] | fronts, verdicts and examinations in words |
+//! | [`shader`] | functions of shaders as truths: read, interpreted, written down as formulas |
 //! | [`run`] | a search under way, from its budget to its fronts; its record and folder; unions, what recurs |
 //! | [`quadrature`], [`microfacet`], [`targets`] | integration, BRDF models, ground truths |
 //! | [`report`] | plots, maps, the page of a run, spheres |
@@ -97,10 +99,15 @@ pub mod stability;
 pub mod archive;
 pub mod scene;
 
+pub mod truth;
+
 pub mod search;
 
 pub mod emit;
 pub mod wording;
+
+#[cfg(feature = "shader")]
+pub mod shader;
 
 pub mod run;
 

@@ -2,7 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
-const LAYERS: [&str; 25] = [
+const LAYERS: [&str; 27] = [
     "deadline",
     "file",
     "printable",
@@ -19,9 +19,11 @@ const LAYERS: [&str; 25] = [
     "stability",
     "archive",
     "scene",
+    "truth",
     "search",
     "emit",
     "wording",
+    "shader",
     "run",
     "quadrature",
     "microfacet",

@@ -24,6 +24,11 @@ impl Columns {
         self.outputs.as_ref().map(|names| names.join(","))
     }
 
+    /// Returns the outputs that were asked for.
+    pub fn outputs_asked(&self) -> Option<&[String]> {
+        self.outputs.as_deref()
+    }
+
     /// Returns the dataset with only the columns chosen.
     pub fn of(&self, dataset: &Dataset) -> Result<Dataset, dataset::Error> {
         dataset.select(self.inputs.as_deref(), self.outputs.as_deref())

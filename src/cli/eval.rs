@@ -65,7 +65,7 @@ fn read(args: &Args, subject: &Subject) -> Result<(Program, Names), Failure> {
 
 /// Returns a formula that has no free constants.
 pub(super) fn settled(parsed: Parsed) -> Result<(Program, Names), Failure> {
-    let Parsed { program, names, free } = parsed;
+    let Parsed { program, names, free, .. } = parsed;
     match free.first() {
         None => Ok((program, names)),
         Some(constant) => {

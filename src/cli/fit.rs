@@ -57,7 +57,7 @@ struct Fitted<'a> {
 pub fn run(args: &Args, common: &Common) -> Result<(), Failure> {
     let whole = args.columns.of(&Dataset::load(&args.dataset)?)?;
     let profile = Profile::find(&args.gpu)?;
-    let Parsed { program, names, free } = assigned_outputs(&args.template, &whole.names())?;
+    let Parsed { program, names, free, .. } = assigned_outputs(&args.template, &whole.names())?;
     let known: Vec<&str> = free.iter().map(|constant| constant.name.as_str()).collect();
     if known.is_empty() {
         let message = "the template has no free constant; write one as $name, or use `lgp eval`";

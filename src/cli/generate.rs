@@ -2,27 +2,31 @@
 
 use super::output::{check_writable, save};
 use super::pruning::Pruning;
+use super::truth::Sampled;
 use super::{Common, Exit, Failure};
+use crate::dataset::Dataset;
 use crate::targets::{self, Recipe, targets};
 use serde::Serialize;
 use std::path::{Path, PathBuf};
 use std::time::Instant;
 
-/// Make the dataset of a built-in ground truth (a target)
+/// Make the dataset of a built-in ground truth (a target), or of a function of your own
 ///
 /// `lgp list` shows the targets, their columns, and the parameters that --set takes.
 ///
 /// For example: lgp generate dfg -o dfg.bin --set points=32
+///
+/// Or of your own: lgp generate --formula "y = sqrt(1 - x*x)" --domain x=0..1 -o circle.bin
 #[derive(clap::Args)]
 pub struct Args {
-    /// A target's name, or a recipe: a file that ends in .ron
-    target: String,
+    /// A target's name, or a recipe: a file that ends in .ron; not needed with --formula
+    #[arg(required_unless_present = "formula")]
+    target: Option<String>,
+    #[command(flatten)]
+    sampled: Sampled,
     /// The file to write [default: the name of the target or recipe, with .bin]
     #[arg(short, long, value_name = "FILE")]
     output: Option<PathBuf>,
-    /// Set a parameter of the target, as in --set points=32; can be given several times
-    #[arg(long, value_name = "K=V", value_parser = key_value)]
-    set: Vec<(String, String)>,
     #[command(flatten)]
     pruning: Pruning,
 }
@@ -40,18 +44,17 @@ struct Made {
 }
 
 pub fn run(args: &Args, common: &Common) -> Result<(), Failure> {
-    let recipe = recipe(args)?;
-    let path = args.output.clone().unwrap_or_else(|| default_output(args, &recipe));
-    check_writable(&path)?;
     let start = Instant::now();
-    let bar = common.progress("integrating");
-    let dataset = targets::generate(&recipe, &|done, total| {
-        bar.set_length(total as u64);
-        // Reports arrive from several threads, and not in order.
-        bar.set_position(bar.position().max(done as u64));
-    });
-    bar.finish_and_clear();
-    let dataset = save(args.pruning.applied_to(dataset?), &path)?;
+    let (path, dataset) = match args.sampled.truth(args.target.as_deref().map(Path::new), None)? {
+        Some(truth) => {
+            let path =
+                args.output.clone().unwrap_or_else(|| format!("{}.bin", truth.name()).into());
+            check_writable(&path)?;
+            (path, args.sampled.dataset(&truth, common)?)
+        }
+        None => integrated(args, common)?,
+    };
+    let dataset = save(args.pruning.applied_to(dataset), &path)?;
     let made = Made {
         search_rows: dataset.search.rows(),
         validation_rows: dataset.validation.rows(),
@@ -64,6 +67,24 @@ pub fn run(args: &Args, common: &Common) -> Result<(), Failure> {
     common.summary(&made, &summary(&made, &dataset.origin.notes().join(", ")))
 }
 
+/// Returns the dataset of a target, and the path to write it to.
+fn integrated(args: &Args, common: &Common) -> Result<(PathBuf, Dataset), Failure> {
+    let target = args.target.as_deref().unwrap_or_default();
+    args.sampled.refuse_all_but_set()?;
+    let set = args.sampled.set.iter().map(|text| key_value(text).map_err(Failure::usage));
+    let recipe = recipe(target, &set.collect::<Result<Vec<_>, _>>()?)?;
+    let path = args.output.clone().unwrap_or_else(|| default_output(target, &recipe));
+    check_writable(&path)?;
+    let bar = common.progress("integrating");
+    let dataset = targets::generate(&recipe, &|done, total| {
+        bar.set_length(total as u64);
+        // Reports arrive from several threads, and not in order.
+        bar.set_position(bar.position().max(done as u64));
+    });
+    bar.finish_and_clear();
+    Ok((path, dataset?))
+}
+
 fn summary(made: &Made, measured: &str) -> String {
     format!(
         "{}: {} search and {} validation rows, {measured}, in {:.1} s",
@@ -74,12 +95,12 @@ fn summary(made: &Made, measured: &str) -> String {
     )
 }
 
-fn recipe(args: &Args) -> Result<Recipe, Failure> {
-    let mut recipe = match recipe_file(args) {
+fn recipe(target: &str, set: &[(String, String)]) -> Result<Recipe, Failure> {
+    let mut recipe = match recipe_file(target) {
         Some(file) => Recipe::load(file)?,
-        None => Recipe::new(&args.target).map_err(on_the_command_line)?,
+        None => Recipe::new(target).map_err(on_the_command_line)?,
     };
-    for (key, value) in &args.set {
+    for (key, value) in set {
         recipe.set(key, value).map_err(on_the_command_line)?;
     }
     Ok(recipe)
@@ -89,15 +110,15 @@ fn on_the_command_line(error: targets::Error) -> Failure {
     Failure::new(Exit::Usage, error)
 }
 
-fn recipe_file(args: &Args) -> Option<&Path> {
-    let path = Path::new(&args.target);
-    let is_target = targets().iter().any(|target| target.name == args.target);
+fn recipe_file(target: &str) -> Option<&Path> {
+    let path = Path::new(target);
+    let is_target = targets().iter().any(|known| known.name == target);
     let is_file = path.extension().is_some_and(|extension| extension == "ron") || path.is_file();
     (is_file && !is_target).then_some(path)
 }
 
-fn default_output(args: &Args, recipe: &Recipe) -> PathBuf {
-    let stem = recipe_file(args).and_then(Path::file_stem);
+fn default_output(target: &str, recipe: &Recipe) -> PathBuf {
+    let stem = recipe_file(target).and_then(Path::file_stem);
     Path::new(stem.unwrap_or(recipe.target().name.as_ref())).with_extension("bin")
 }
 
@@ -106,6 +127,6 @@ fn key_value(text: &str) -> Result<(String, String), String> {
         Some((key, value)) if !key.trim().is_empty() => {
             Ok((key.trim().to_owned(), value.trim().to_owned()))
         }
-        _ => Err("write a parameter and its value, as in points=32".into()),
+        _ => Err(format!("--set {text}: write a parameter and its value, as in points=32")),
     }
 }

@@ -31,6 +31,7 @@ mod search;
 mod specialize;
 mod tiers;
 mod timings;
+mod truth;
 mod verify;
 
 pub use failure::{Exit, Failure};
@@ -84,7 +85,7 @@ struct Cli {
 
 #[derive(Subcommand)]
 enum Command {
-    Search(search::Args),
+    Search(Box<search::Args>),
     Front(front::Args),
     Emit(emit::Args),
     Eval(eval::Args),

@@ -9,6 +9,7 @@ use crate::fit::Measure;
 use crate::grammar::Grammar;
 use crate::program::{Draft, parse};
 use crate::run::{Budget, Folder, Holding, RecordError, Session, Subject, in_the_way, noted};
+use crate::scene::Scene;
 use crate::search::{Goal, Method, Problem, Requirement, Transform, USUAL_GPU, USUAL_GRAMMAR};
 use crate::suggest::did_you_mean;
 use std::path::{Path, PathBuf};
@@ -29,11 +30,7 @@ impl Plan {
     }
 
     fn new(args: &Args, common: &Common) -> Result<Plan, Failure> {
-        let Some(path) = &args.dataset else {
-            return Err(Failure::usage("give a dataset to search formulas for"));
-        };
-        let scene = args.scene.as_deref();
-        let subject = Subject::load(path, scene, |data| args.columns.of(data))?;
+        let subject = subject(args, common)?;
         let dataset = &subject.dataset;
         let grammar = Grammar::find(args.grammar.as_deref().unwrap_or(USUAL_GRAMMAR))?;
         let gpu = args.gpu.as_deref().unwrap_or(USUAL_GPU);
@@ -41,7 +38,7 @@ impl Plan {
         let usual = Goal::default();
         let tiers_spend = subject.scene.as_ref().and_then(|scene| scene.max_cost());
         let goal = Goal {
-            measure: measure(args.loss, path, &dataset.search)?,
+            measure: measure(args.loss, &dataset.name, &dataset.search)?,
             requirements: requirements(args, dataset)?,
             transforms: transforms(&args.transform, dataset)?,
             max_cost: args.max_cost.or(tiers_spend).unwrap_or(usual.max_cost),
@@ -58,15 +55,38 @@ impl Plan {
             Some(out) => (asked_for(out, args.force)?, Holding::of(out) != Holding::NoRun),
             None => (free(&dataset.name, common)?, false),
         };
+        // A function's samples are kept with the run, which can then be read without it.
+        let file = match &args.dataset {
+            Some(path) if subject.whole.origin.function().is_none() => noted(path, folder.path()),
+            _ => folder.keep_data(&subject.whole)?,
+        };
         let problem = Problem::of(Arc::clone(dataset)).grammar(grammar).profile(profile).goal(goal);
         let session = Session::new(problem.build()?, method)?
             .budget(budget(args))
             .guesses(&args.guess)?
             .exhaustive(args.exhaustive)
-            .of_file(noted(path, folder.path()), subject.whole.hash(), subject.scene.clone())
+            .of_file(file, subject.whole.hash(), subject.scene.clone())
             .asked_by(gpu, command())
             .kept_in(folder, replaces);
         Ok(Plan { subject, session })
+    }
+}
+
+/// Returns the data to search formulas for: a dataset, or the samples of a function.
+fn subject(args: &Args, common: &Common) -> Result<Subject, Failure> {
+    let choose = |data: &Dataset| args.columns.of(data);
+    let (file, scene) = (args.dataset.as_deref(), args.scene.as_deref());
+    match (args.sampled.truth(file, args.columns.outputs_asked())?, file) {
+        (Some(truth), _) => {
+            let whole = args.sampled.dataset(&truth, common)?;
+            let scene = scene.map(|name| Scene::find(name, file.unwrap_or(Path::new(""))));
+            Ok(Subject::new(whole, scene.transpose()?, choose)?)
+        }
+        (None, Some(path)) => {
+            args.sampled.refuse_functions()?;
+            Ok(Subject::load(path, scene, choose)?)
+        }
+        (None, None) => Err(Failure::usage("give a dataset, a shader, or a function by --formula")),
     }
 }
 
@@ -153,11 +173,10 @@ pub(super) fn guesses(texts: &[String], dataset: &Dataset) -> Result<Vec<Draft>,
 }
 
 /// Returns the measure to minimise; weights that are asked for must be there.
-fn measure(loss: Option<Measure>, path: &Path, split: &Split) -> Result<Measure, Failure> {
+fn measure(loss: Option<Measure>, name: &str, split: &Split) -> Result<Measure, Failure> {
     if loss == Some(Measure::Weighted) && split.weights.is_empty() {
         let message = format!(
-            "--loss weighted: {} has no weights; import a table with a column `weight`, or use --loss rmse",
-            path.display()
+            "--loss weighted: {name} has no weights; import a table with a column `weight`, or use --loss rmse"
         );
         return Err(Failure::usage(message));
     }

@@ -4,6 +4,7 @@ use super::output::to_stderr;
 use super::plan::Plan;
 use super::progress::{LiveFront, Phases};
 use super::timings::Timings;
+use super::truth::Sampled;
 use super::{Common, Failure, argument, columns::Columns, interrupts, refusals, tiers};
 use crate::emit::Language;
 use crate::fit::Measure;
@@ -23,9 +24,13 @@ use std::time::Duration;
 /// For example: lgp search datasets/dfg.bin --time 60s --max-cost 16
 #[derive(clap::Args)]
 pub struct Args {
-    /// The dataset: a file from `lgp generate` or `lgp import`; not needed for --resume with --out
-    #[arg(required_unless_present = "resume")]
+    /// The dataset: a file from `lgp generate` or `lgp import`; or a shader (.wgsl, .glsl, .frag,
+    /// .comp, .hlsl, .slang, .spv), of which a function is approximated over a --domain. Not needed
+    /// with --formula, or for --resume with --out
+    #[arg(required_unless_present_any = ["resume", "formula"])]
     pub(super) dataset: Option<PathBuf>,
+    #[command(flatten)]
+    pub(super) sampled: Sampled,
     #[command(flatten)]
     pub(super) columns: Columns,
     /// Fit only what a scene needs of the dataset: a scene beside it, or a .ron file
@@ -97,6 +102,9 @@ pub fn run(args: &Args, common: &Common) -> Result<(), Failure> {
     let Plan { subject, session } = Plan::of(args, common)?;
     let profile = session.search().problem().profile();
     let incumbents = subject.published(&session.record().dataset, profile)?;
+    if let Err(reason) = subject.original(profile) {
+        common.note(&format!("the original cannot be compared with: {reason}"));
+    }
     timings.note("reading");
     let stop = interrupts::watch();
     let mut session = session.since(timings.start()).until_asked(&stop);

@@ -32,7 +32,7 @@ pub use csv::{InputColumns, Table, import_csv};
 pub use error::Error;
 pub use incumbent::{Incumbent, ParsedIncumbent, incumbents_file, incumbents_for, load_incumbents};
 pub use name::{LONGEST_NAME, NameFault, check_name, check_text};
-pub use origin::Origin;
+pub use origin::{Function, Origin};
 pub(crate) use sampled::combinations;
 pub use sampled::{Axis, Spacing, axis, grid_weights};
 pub use unit::{joint_unit, output_units, unit};

@@ -23,6 +23,13 @@ pub enum Origin {
         /// Its formula, or a description.
         text: String,
     },
+    /// A function that can be evaluated anywhere (`lgp::truth`).
+    Function {
+        /// The function.
+        function: Function,
+        /// Its domain, as `--domain` has it.
+        domain: String,
+    },
     /// The rows that a scene left of others.
     View {
         /// The source of those.
@@ -41,6 +48,42 @@ pub enum Origin {
         /// The number of rows before.
         rows: usize,
     },
+}
+
+/// A function, with all that is needed to evaluate it again.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub enum Function {
+    /// Formula text.
+    Formula {
+        /// The text.
+        text: String,
+    },
+    /// A function of a shader.
+    Shader {
+        /// The file's name, without its folder.
+        file: String,
+        /// Its text; binary code in hexadecimal digits.
+        text: String,
+        /// The function's name.
+        entry: String,
+        /// The values that `--set` gave.
+        set: Vec<String>,
+        /// The definitions that `--let` gave.
+        define: Vec<String>,
+    },
+}
+
+impl fmt::Display for Function {
+    fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
+        match self {
+            Function::Formula { text } => f.write_str(text),
+            Function::Shader { file, entry, set, define, .. } => {
+                write!(f, "{entry} of {file}")?;
+                set.iter().try_for_each(|text| write!(f, ", {text}"))?;
+                define.iter().try_for_each(|text| write!(f, ", {text}"))
+            }
+        }
+    }
 }
 
 impl Default for Origin {
@@ -63,7 +106,17 @@ impl Origin {
                 target.chars().all(is_name).then_some(target)
             }
             Origin::View { of, .. } | Origin::Pruned { of, .. } => of.target(),
-            Origin::Import { .. } | Origin::Formula { .. } => None,
+            Origin::Import { .. } | Origin::Formula { .. } | Origin::Function { .. } => None,
+        }
+    }
+
+    /// Returns the function whose values they are in the end, if it can be evaluated again, and its
+    /// domain.
+    pub fn function(&self) -> Option<(&Function, &str)> {
+        match self {
+            Origin::Function { function, domain } => Some((function, domain)),
+            Origin::View { of, .. } | Origin::Pruned { of, .. } => of.function(),
+            Origin::Target { .. } | Origin::Import { .. } | Origin::Formula { .. } => None,
         }
     }
 
@@ -75,6 +128,7 @@ impl Origin {
                 let pruned = format!("pruned at {share}: {kept} of {rows} rows");
                 [of.notes(), vec![pruned]].concat()
             }
+            Origin::Function { .. } => vec!["evaluated in double precision".to_owned()],
             Origin::Import { .. } | Origin::Formula { .. } | Origin::View { .. } => Vec::new(),
         }
     }
@@ -85,6 +139,7 @@ impl Origin {
             Origin::Target { recipe, .. } => recipe.clone(),
             Origin::Import { file } => format!("{IMPORTED}{file}"),
             Origin::Formula { text } => text.clone(),
+            Origin::Function { function, domain } => format!("{function} over {domain}"),
             Origin::View { of, scene } => format!("{of}{SCENE}{scene}"),
             Origin::Pruned { of, .. } => of.source(),
         }

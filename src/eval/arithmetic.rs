@@ -19,11 +19,24 @@ pub trait Arithmetic {
     /// # Panics
     /// If `inputs` does not hold one value per input column.
     fn evaluate(&self, program: &Program, inputs: &[Self::Value]) -> Vec<Self::Value> {
+        self.evaluate_with(program, inputs, |index| self.constant(program.consts[index]))
+    }
+
+    /// As [`Arithmetic::evaluate`], with other values for the program's constants, by index.
+    ///
+    /// # Panics
+    /// As [`Arithmetic::evaluate`].
+    fn evaluate_with(
+        &self,
+        program: &Program,
+        inputs: &[Self::Value],
+        constant: impl Fn(usize) -> Self::Value,
+    ) -> Vec<Self::Value> {
         assert_eq!(inputs.len(), program.inputs, "one value for each input");
         let mut results = Vec::with_capacity(program.instrs.len());
         let value = |arg: Arg, results: &[Self::Value]| match arg {
             Arg::Input(i) => inputs[usize::from(i)],
-            Arg::Const(i) => self.constant(program.consts[usize::from(i)]),
+            Arg::Const(i) => constant(usize::from(i)),
             Arg::Result(i) => results[usize::from(i)],
         };
         for instr in &program.instrs {

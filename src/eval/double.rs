@@ -2,10 +2,23 @@
 
 use super::Arithmetic;
 use crate::op::{MAX_ARITY, Op};
+use crate::program::Program;
 
-/// IEEE-754 double precision, with the platform's elementary functions.
+/// IEEE-754 double precision, with the elementary functions of `libm`, the same on all platforms.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Double;
+
+impl Double {
+    /// Evaluates a program as [`Arithmetic::evaluate`] does, but with constants in double precision,
+    /// one for each of the program's ([`Parsed::exact`](crate::program::Parsed::exact)).
+    ///
+    /// # Panics
+    /// If `inputs` or `constants` has another length than the program's.
+    pub fn evaluate_exact(&self, program: &Program, constants: &[f64], inputs: &[f64]) -> Vec<f64> {
+        assert_eq!(constants.len(), program.consts.len(), "one value for each constant");
+        self.evaluate_with(program, inputs, |index| constants[index])
+    }
+}
 
 impl Arithmetic for Double {
     type Value = f64;
@@ -29,19 +42,19 @@ impl Arithmetic for Double {
             Op::Rcp => 1.0 / a,
             Op::Sqrt => a.sqrt(),
             Op::Rsqrt => 1.0 / a.sqrt(),
-            Op::Exp2 => a.exp2(),
-            Op::Log2 => a.log2(),
-            Op::Exp => a.exp(),
-            Op::Log => a.ln(),
-            Op::Pow => (b * a.log2()).exp2(),
-            Op::Sin => a.sin(),
-            Op::Cos => a.cos(),
-            Op::Tan => a.tan(),
-            Op::Asin => a.asin(),
-            Op::Acos => a.acos(),
-            Op::Atan => a.atan(),
-            Op::Atan2 => a.atan2(b),
-            Op::Tanh => a.tanh(),
+            Op::Exp2 => libm::exp2(a),
+            Op::Log2 => libm::log2(a),
+            Op::Exp => libm::exp(a),
+            Op::Log => libm::log(a),
+            Op::Pow => libm::exp2(b * libm::log2(a)),
+            Op::Sin => libm::sin(a),
+            Op::Cos => libm::cos(a),
+            Op::Tan => libm::tan(a),
+            Op::Asin => libm::asin(a),
+            Op::Acos => libm::acos(a),
+            Op::Atan => libm::atan(a),
+            Op::Atan2 => libm::atan2(a, b),
+            Op::Tanh => libm::tanh(a),
             Op::Lerp => c.mul_add(b - a, a),
             Op::Step => f64::from(u8::from(b >= a)),
             Op::Select => {

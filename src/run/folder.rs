@@ -8,6 +8,7 @@
 //! | `front.json`, `front-max.json` | its fronts |
 //! | `trace.csv`, `census.json` | how the search went on, what recurred in its formulas |
 //! | `front.txt`, `snippets/`, pictures, `report.html` | what is made of the others |
+//! | `data-….bin` | the samples of the function that it approximates, where that was no dataset |
 //! | `lock` | while there is an owner: who it is |
 //!
 //! During a search only `checkpoint.bin` is written, always replaced whole, so a resumed run can be
@@ -22,6 +23,7 @@
 //! ends. A file that is left behind means nothing.
 
 use super::{Outcome, RecordError, Run, Trace, snippet};
+use crate::dataset::Dataset;
 use crate::emit::Language;
 use crate::file::{StagedFile, TEMPORARY, remove_file, replace_file};
 use crate::fit::Measure;
@@ -44,6 +46,8 @@ pub(crate) const MINIMAX_FRONT: &str = "front-max.json";
 pub(crate) const TRACE: &str = "trace.csv";
 /// What recurs in its formulas.
 pub(crate) const CENSUS: &str = "census.json";
+/// The beginning of the name of a dataset that is kept with a run.
+const DATA: &str = "data-";
 const LOCK: &str = "lock";
 const SNIPPETS: &str = "snippets";
 /// The front as a table.
@@ -150,6 +154,22 @@ impl Folder {
         &self.path
     }
 
+    /// Keeps a dataset beside the run that is made of it, under a name that no other has, so that
+    /// what is there stays whole; returns its path. [`Folder::exchange`] removes it when another run
+    /// takes the place of its own.
+    ///
+    /// # Errors
+    /// [`RecordError::Unwritable`], or a dataset that is none.
+    pub fn keep_data(&self, dataset: &Dataset) -> Result<PathBuf, RecordError> {
+        let path = self.path.join(format!("{DATA}{}.bin", &dataset.hash()[..12]));
+        let bytes = dataset.to_bytes(&path).map_err(|error| {
+            let reason = std::io::Error::other(error.to_string());
+            RecordError::Unwritable { path: path.clone(), reason }
+        })?;
+        replace_file(&path, &bytes).map_err(unwritable(&path))?;
+        Ok(path)
+    }
+
     /// Replaces the checkpoint.
     ///
     /// # Errors
@@ -202,6 +222,10 @@ impl Folder {
             let path = file.path().to_owned();
             file.put_in_place().map_err(unwritable(&path))?;
         }
+        let kept = run.dataset.file_name();
+        let files = self.path.read_dir().into_iter().flatten().flatten();
+        let stale = files.map(|file| file.path()).filter(|path| is_data(path));
+        stale.filter(|path| path.file_name() != kept).for_each(|path| drop(remove_file(&path)));
         Ok(())
     }
 
@@ -235,6 +259,13 @@ impl Folder {
             temporaries.for_each(|(_, path)| drop(remove_file(&path)));
         }
     }
+}
+
+/// Returns true for a file as [`Folder::keep_data`] names them.
+fn is_data(path: &Path) -> bool {
+    let name = path.file_name().and_then(OsStr::to_str).unwrap_or_default();
+    let hash = name.strip_prefix(DATA).and_then(|name| name.strip_suffix(".bin"));
+    hash.is_some_and(|hash| hash.len() == 12 && hash.bytes().all(|byte| byte.is_ascii_hexdigit()))
 }
 
 /// Lists what runs have written to a folder's `snippets`, and nothing else.

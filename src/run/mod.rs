@@ -32,6 +32,7 @@ mod improvement;
 mod journal;
 mod member;
 mod merge;
+mod original;
 mod record;
 mod session;
 mod snippet;
@@ -48,6 +49,7 @@ pub use folder::{
 };
 pub use member::MemberRecord;
 pub use merge::{Incompatible, merge};
+pub use original::ORIGINAL;
 pub use record::{Budget, Run};
 pub use session::{Outcome, Phase, Progress, Session};
 pub use snippet::{domains, half_snippet, header, seeds, snippet};

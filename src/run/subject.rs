@@ -103,12 +103,13 @@ impl Subject {
             None => incumbents_for(path, &self.dataset)?,
         };
         let whole = comparable.into_iter().filter(|known| known.outputs == names.outputs);
-        Ok(whole
-            .map(|known| ScoredIncumbent {
-                name: known.incumbent.name,
-                member: FrontMember::new(known.program, &self.dataset, profile, &names),
-            })
-            .collect())
+        let published = whole.map(|known| ScoredIncumbent {
+            name: known.incumbent.name,
+            member: FrontMember::new(known.program, &self.dataset, profile, &names),
+        });
+        // One that is no formula is left out; a command says why.
+        let original = self.original(profile).ok().flatten();
+        Ok(published.chain(original).collect())
     }
 
     /// Returns the dataset's incumbents cut to the scene, and those made for the scene:

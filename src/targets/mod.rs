@@ -34,6 +34,7 @@ pub use error::Error;
 pub use recipe::Recipe;
 
 use crate::dataset::Dataset;
+use crate::truth::Progress;
 
 /// A ground truth that [`generate`] can make.
 #[derive(Debug)]
@@ -48,9 +49,6 @@ pub struct Target {
     pub parameters: &'static [Parameter],
     generate: fn(&Recipe, Progress) -> Result<Dataset, Error>,
 }
-
-/// A function called with the work units done so far and their total, from any thread.
-pub type Progress<'a> = &'a (dyn Fn(usize, usize) + Sync);
 
 const fn points(default: &'static str, most: usize) -> Parameter {
     Parameter {

@@ -1,5 +1,6 @@
 //! What a text has defined: its names, constants and results.
 
+use super::lex::Number;
 use super::{FreeConstant, Names, Parsed, Scope};
 use crate::op::{MAX_ARITY, Op};
 use crate::program::{Arg, Draft, Instr, Program};
@@ -16,11 +17,16 @@ pub(super) struct Definitions {
     outputs: HashSet<String>,
     open: bool,
     assigned: HashMap<String, Arg>,
-    last_assigned: Option<String>,
+    /// The names assigned, in order.
+    statements: Vec<String>,
+    /// Those that a later statement reads.
+    read: HashSet<String>,
     free: Vec<FreeConstant>,
     free_places: HashMap<String, Arg>,
-    /// Numbers by their bits.
-    constants: HashMap<u32, Arg>,
+    /// The draft's constants in double precision.
+    exact: Vec<f64>,
+    /// Numbers by the bits of that.
+    constants: HashMap<u64, Arg>,
     /// Results by the instruction that computes them.
     results: HashMap<Instr, Arg>,
 }
@@ -38,9 +44,11 @@ impl Definitions {
             names,
             open: matches!(scope, Scope::Open { .. }),
             assigned: HashMap::new(),
-            last_assigned: None,
+            statements: Vec::new(),
+            read: HashSet::new(),
             free: Vec::new(),
             free_places: HashMap::new(),
+            exact: Vec::new(),
             constants: HashMap::new(),
             results: HashMap::new(),
         }
@@ -64,12 +72,13 @@ impl Definitions {
 
     pub(super) fn assign(&mut self, name: String, value: Arg) {
         self.assigned.insert(name.clone(), value);
-        self.last_assigned = Some(name);
+        self.statements.push(name);
     }
 
     pub(super) fn name(&mut self, name: String) -> Result<Arg, String> {
-        if let Some(value) = self.assigned.get(&name) {
-            return Ok(*value);
+        if let Some(&value) = self.assigned.get(&name) {
+            self.read.insert(name);
+            return Ok(value);
         }
         if let Some(&index) = self.inputs.get(&name) {
             return Ok(Arg::Input(index as u16));
@@ -91,13 +100,14 @@ impl Definitions {
         Err(format!("unknown name `{name}`{hint} (inputs: {inputs})"))
     }
 
-    pub(super) fn constant(&mut self, value: f32) -> Result<Arg, String> {
-        if let Some(&known) = self.constants.get(&value.to_bits()) {
+    pub(super) fn constant(&mut self, value: Number) -> Result<Arg, String> {
+        if let Some(&known) = self.constants.get(&value.exact.to_bits()) {
             return Ok(known);
         }
         self.room(self.draft.consts.len(), "numbers")?;
-        let constant = self.draft.constant(value);
-        self.constants.insert(value.to_bits(), constant);
+        let constant = self.draft.constant(value.rounded);
+        self.exact.push(value.exact);
+        self.constants.insert(value.exact.to_bits(), constant);
         Ok(constant)
     }
 
@@ -107,6 +117,7 @@ impl Definitions {
         }
         self.room(self.draft.consts.len(), "constants")?;
         let arg = self.draft.constant(1.0);
+        self.exact.push(1.0);
         if let Arg::Const(index) = arg {
             self.free_places.insert(name.clone(), arg);
             self.free.push(FreeConstant { name, index });
@@ -126,36 +137,41 @@ impl Definitions {
         Ok(result)
     }
 
-    /// Writes out a program over values of this formula, and returns its first output.
-    pub(super) fn write_out(&mut self, program: &Program, inputs: &[Arg]) -> Result<Arg, String> {
+    /// Writes out a formula over values of this one, and returns its first output.
+    pub(super) fn write_out(&mut self, formula: &Parsed, inputs: &[Arg]) -> Result<Arg, String> {
+        let program = &formula.program;
         let mut results = Vec::with_capacity(program.instrs.len());
         for instr in &program.instrs {
             let mut args = [Arg::Input(0); MAX_ARITY];
             for (to, &arg) in args.iter_mut().zip(instr.args()) {
-                *to = self.written_out(arg, program, inputs, &results)?;
+                *to = self.written_out(arg, formula, inputs, &results)?;
             }
             results.push(self.apply(instr.op(), &args)?);
         }
-        self.written_out(program.outputs[0], program, inputs, &results)
+        self.written_out(program.outputs[0], formula, inputs, &results)
     }
 
     fn written_out(
         &mut self,
         arg: Arg,
-        program: &Program,
+        formula: &Parsed,
         inputs: &[Arg],
         results: &[Arg],
     ) -> Result<Arg, String> {
         match arg {
             Arg::Input(index) => Ok(inputs[usize::from(index)]),
             Arg::Result(index) => Ok(results[usize::from(index)]),
-            Arg::Const(index) => self.constant(program.consts[usize::from(index)]),
+            Arg::Const(index) => {
+                let place = usize::from(index);
+                let rounded = formula.program.consts[place];
+                self.constant(Number { rounded, exact: formula.exact[place] })
+            }
         }
     }
 
     pub(super) fn finish(mut self) -> Result<Parsed, String> {
         if self.open && self.names.outputs.is_empty() {
-            self.names.outputs.extend(self.last_assigned.clone());
+            self.names.outputs.extend(self.statements.last().cloned());
         }
         if self.names.outputs.is_empty() {
             return Err("the formula has no statement".to_owned());
@@ -171,7 +187,9 @@ impl Definitions {
             }
         }
         let program = Program::verify(self.draft).map_err(|invalid| invalid.to_string())?;
-        Ok(Parsed { program, names: self.names, free: self.free })
+        self.statements.retain(|name| !self.read.contains(name));
+        let (exact, unread) = (self.exact, self.statements);
+        Ok(Parsed { program, names: self.names, exact, unread, free: self.free })
     }
 
     /// Checks that a program can hold one more.

@@ -1,8 +1,7 @@
 //! Functions of shading languages beyond the table of operations: other names, and formulas.
 
-use super::{Names, parse};
+use super::{Names, Parsed, Scope, parse_template};
 use crate::op::Op;
-use crate::program::Program;
 
 /// Operations under the names that shading languages have for them.
 const RENAMED: [(&str, Op); 4] =
@@ -13,10 +12,10 @@ const RENAMED: [(&str, Op); 4] =
 const FORMULAS: [(&str, &[&str], &str); 7] = [
     ("ceil", &["x"], "y = -floor(-x)"),
     ("clamp", &["x", "low", "high"], "y = min(max(x, low), high)"),
-    ("degrees", &["x"], "y = 57.29578*x"),
-    ("log10", &["x"], "y = 0.30103*log2(x)"),
+    ("degrees", &["x"], "y = 57.29577951308232*x"),
+    ("log10", &["x"], "y = 0.3010299956639812*log2(x)"),
     ("mod", &["x", "m"], "y = x - m*floor(x/m)"),
-    ("radians", &["x"], "y = 0.017453293*x"),
+    ("radians", &["x"], "y = 0.017453292519943295*x"),
     (
         "smoothstep",
         &["low", "high", "x"],
@@ -27,8 +26,8 @@ const FORMULAS: [(&str, &[&str], &str); 7] = [
 /// What a name before `(` means.
 pub(super) enum Function {
     Operation(Op),
-    /// A program over the arguments.
-    Formula(Program),
+    /// A formula over the arguments.
+    Formula(Parsed),
 }
 
 impl Function {
@@ -36,7 +35,8 @@ impl Function {
     pub(super) fn find(name: &str) -> Option<Function> {
         if let Some((_, parameters, text)) = FORMULAS.iter().find(|(known, ..)| *known == name) {
             let names = Names::new(parameters.iter().copied(), ["y"]);
-            return Some(Function::Formula(parse(text, &names).expect("a formula of the table")));
+            let parsed = parse_template(text, Scope::Dataset(&names));
+            return Some(Function::Formula(parsed.expect("a formula of the table")));
         }
         let renamed = RENAMED.iter().find(|(known, _)| *known == name).map(|(_, op)| *op);
         renamed.or_else(|| Op::from_name(name)).map(Function::Operation)
@@ -53,7 +53,7 @@ impl Function {
     pub(super) fn arity(&self) -> usize {
         match self {
             Function::Operation(op) => op.arity(),
-            Function::Formula(program) => program.inputs,
+            Function::Formula(formula) => formula.program.inputs,
         }
     }
 }

@@ -8,11 +8,26 @@ pub(super) enum Token {
     Name(String),
     /// `$name`
     Free(String),
-    Number(f32),
+    Number(Number),
     /// One of `+ - * / ^ ( ) , = < > ? :`
     Symbol(char),
     /// `;` or a new line
     End,
+}
+
+/// A number as it is written: rounded to a program's constant, and in double precision.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Number {
+    pub rounded: f32,
+    pub exact: f64,
+}
+
+impl std::ops::Neg for Number {
+    type Output = Number;
+
+    fn neg(self) -> Number {
+        Number { rounded: -self.rounded, exact: -self.exact }
+    }
 }
 
 /// The tokens of a text, read from first to last.
@@ -182,15 +197,15 @@ fn suffix_length(number: &str, after: &str) -> usize {
     usize::from(is_float && name_length(after) == 1 && after.starts_with(['f', 'F', 'h', 'H']))
 }
 
-fn number(text: &str, start: usize, end: usize) -> Result<f32, ParseError> {
+fn number(text: &str, start: usize, end: usize) -> Result<Number, ParseError> {
     let digits = &text[start..end];
-    match digits.parse::<f32>() {
-        Ok(value) if value.is_finite() => Ok(value),
-        Ok(_) => Err(ParseError::at(
+    match (digits.parse::<f32>(), digits.parse()) {
+        (Ok(rounded), Ok(exact)) if rounded.is_finite() => Ok(Number { rounded, exact }),
+        (Ok(_), _) => Err(ParseError::at(
             text,
             start,
             format!("{digits} is too large for a 32-bit float (at most 3.4e38)"),
         )),
-        Err(_) => Err(ParseError::at(text, start, format!("`{digits}` is not a number"))),
+        (Err(_), _) => Err(ParseError::at(text, start, format!("`{digits}` is not a number"))),
     }
 }

@@ -19,7 +19,8 @@ pub struct ParseError {
 }
 
 impl ParseError {
-    pub(super) fn at(text: &str, offset: usize, message: impl Into<String>) -> ParseError {
+    /// Reports a problem at a byte offset of a text.
+    pub(crate) fn at(text: &str, offset: usize, message: impl Into<String>) -> ParseError {
         let (line, column, source_line) = place(text, offset);
         let (message, source_line) = (message.into(), source_line.to_owned());
         ParseError { line, column, message, source_line }
@@ -54,6 +55,10 @@ pub struct Parsed {
     pub program: Program,
     /// The names of its columns.
     pub names: Names,
+    /// The program's constants as they are written, in double precision.
+    pub exact: Vec<f64>,
+    /// The names of the statements that no later one reads, in order.
+    pub unread: Vec<String>,
     /// The `$name` constants, in order of appearance.
     pub free: Vec<FreeConstant>,
 }

@@ -2,7 +2,7 @@
 
 use super::definitions::Definitions;
 use super::functions::{self, Function};
-use super::lex::{Token, Tokens};
+use super::lex::{Number, Token, Tokens};
 use super::{ParseError, Parsed, Scope};
 use crate::op::Op;
 use crate::program::Arg;
@@ -208,7 +208,7 @@ impl Parser<'_> {
                 );
             };
             self.tokens.skip(1);
-            tower.push(value);
+            tower.push(value.rounded);
             if !self.tokens.take_symbol('^') {
                 return Ok(tower.into_iter().rev().fold(1.0, |power, base| base.powf(power)));
             }
@@ -294,8 +294,8 @@ impl Parser<'_> {
         }
         match function {
             Function::Operation(op) => self.apply(op, &args),
-            Function::Formula(program) => {
-                self.tokens.placed(at, self.definitions.write_out(&program, &args))
+            Function::Formula(formula) => {
+                self.tokens.placed(at, self.definitions.write_out(&formula, &args))
             }
         }
     }
@@ -321,7 +321,7 @@ impl Parser<'_> {
         self.choose(condition, yes, no)
     }
 
-    fn constant(&mut self, value: f32, at: usize) -> Parse<Arg> {
+    fn constant(&mut self, value: Number, at: usize) -> Parse<Arg> {
         self.tokens.placed(at, self.definitions.constant(value))
     }
 
