@@ -284,7 +284,7 @@ fn whole(x: Interval) -> Option<f64> {
 }
 
 /// Returns true if the exact operation and its stated error cover every possible result.
-fn describes(rounding: Rounding, op: Op, a: Interval, b: Interval) -> bool {
+pub(super) fn describes(rounding: Rounding, op: Op, a: Interval, b: Interval) -> bool {
     let reach = a.abs().high();
     let gpu = rounding == Rounding::Gpu;
     match op {

@@ -43,6 +43,7 @@ mod prove;
 mod record;
 mod rounding;
 mod smoothness;
+mod truth;
 mod variants;
 mod verdict;
 
@@ -58,5 +59,6 @@ pub use prove::{Bound, Limits, Property, Status, Stopped, prove};
 pub use record::{ClaimRecord, StatusRecord, Value, VerdictRecord};
 pub use rounding::Rounding;
 pub use smoothness::{Break, JUMP, Smoothness, Trend};
+pub use truth::{ErrorBound, ErrorLimits, largest_error, largest_error_until};
 pub use variants::{Liberty, Spread, spreads};
 pub use verdict::{Case, Finding, Questions, Verdict};

@@ -8,3 +8,4 @@ mod incumbents;
 mod random;
 mod sloppy;
 mod stiff;
+mod truth;
