@@ -6,6 +6,7 @@
 //! number. [`low_discrepancy`] spreads points over a cube, and [`CompensatedSum`] adds without
 //! losing digits.
 
+mod directed;
 mod interval;
 mod lanes;
 pub mod low_discrepancy;

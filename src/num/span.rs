@@ -1,6 +1,10 @@
 //! Bounds of real numbers in `f64`, rounded outward, and tight where an operation is exact: `1 − x`
 //! of an `x` up to 1 is never negative.
 
+use super::directed::{
+    loosely_below, product_below, quotient_below, root_above, root_below, sum_below,
+};
+
 /// The real numbers between two bounds, inclusive. An infinite bound is no bound. The value may
 /// also be undefined: the root of a negative number, say.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -9,13 +13,6 @@ pub struct Span {
     high: f64,
     may_be_undefined: bool,
 }
-
-/// How far the platform's elementary functions may be off, relative to their results: 4 units in
-/// the last place. Those of the C libraries in use are within one.
-const LOOSENESS: f64 = 4.0 * f64::EPSILON;
-
-/// Below this, the residuals of products are not exact.
-const TINY: f64 = 1e-280;
 
 impl Span {
     /// Any real number.
@@ -240,88 +237,6 @@ impl Span {
 
     fn marked<const N: usize>(self, of: [Span; N]) -> Span {
         self.or_undefined_if(of.iter().any(|span| span.may_be_undefined))
-    }
-}
-
-/// Moves down a result that has overflowed or is not a number.
-fn lower(x: f64) -> Option<f64> {
-    if x.is_nan() {
-        Some(f64::NEG_INFINITY)
-    } else if x == f64::INFINITY {
-        Some(f64::MAX)
-    } else if x == f64::NEG_INFINITY {
-        Some(x)
-    } else {
-        None
-    }
-}
-
-/// Returns a lower bound of `a + b`: the sum itself where that is exact (Knuth's two-sum).
-fn sum_below(a: f64, b: f64) -> f64 {
-    let sum = a + b;
-    if let Some(bound) = lower(sum) {
-        return bound;
-    }
-    let other = sum - a;
-    let error = (a - (sum - other)) + (b - other);
-    if error < 0.0 { sum.next_down() } else { sum }
-}
-
-/// Returns a lower bound of `a · b`: the product itself where that is exact.
-fn product_below(a: f64, b: f64) -> f64 {
-    if a == 0.0 || b == 0.0 {
-        return 0.0;
-    }
-    let product = a * b;
-    if let Some(bound) = lower(product) {
-        return bound;
-    }
-    if product.abs() < TINY {
-        let positive = (a > 0.0) == (b > 0.0);
-        return if positive { product.next_down().max(0.0) } else { product.next_down() };
-    }
-    if a.mul_add(b, -product) < 0.0 { product.next_down() } else { product }
-}
-
-/// Returns a lower bound of `a / b` for a positive `b`: the quotient itself where that is exact.
-fn quotient_below(a: f64, b: f64) -> f64 {
-    if a == 0.0 {
-        return 0.0;
-    }
-    let quotient = a / b;
-    if let Some(bound) = lower(quotient) {
-        return bound;
-    }
-    let exact = quotient.abs() > TINY && a.abs() > TINY;
-    if exact && (-quotient).mul_add(b, a) >= 0.0 {
-        return quotient;
-    }
-    if a > 0.0 { quotient.next_down().max(0.0) } else { quotient.next_down() }
-}
-
-fn root_below(x: f64) -> f64 {
-    let root = x.sqrt();
-    match lower(root) {
-        Some(bound) => bound,
-        None if x > TINY && (-root).mul_add(root, x) < 0.0 => root.next_down(),
-        None if x > TINY => root,
-        None => root.next_down().max(0.0),
-    }
-}
-
-fn root_above(x: f64) -> f64 {
-    let root = x.sqrt();
-    if x == 0.0 || root == f64::INFINITY || (x > TINY && (-root).mul_add(root, x) <= 0.0) {
-        return root;
-    }
-    root.next_up()
-}
-
-fn loosely_below(x: f64) -> f64 {
-    match lower(x) {
-        Some(bound) => bound,
-        None if x == 0.0 => 0.0,
-        None => (x - x.abs() * LOOSENESS).next_down(),
     }
 }
 

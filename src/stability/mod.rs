@@ -6,6 +6,22 @@
 //! arithmetic that GPUs are allowed ([`Rounding`]). An [`Examination`] adds what shows at sampled
 //! points: the losses of single and half precision, spreads, extremes, jumps, kinks and trends.
 //!
+//! Where the truth is a formula itself, [`largest_error`] bounds the distance from it:
+//! ```
+//! use lgp::num::Interval;
+//! use lgp::program::{Names, parse};
+//! use lgp::stability::{ErrorLimits, Rounding, largest_error};
+//!
+//! let names = Names::new(["x"], ["y"]);
+//! let formula = parse("y = x*(1 - 0.16*x*x)", &names)?;
+//! let truth = parse("y = sin(x)", &names)?;
+//! let domain = [Interval::new(0.0, 1.0)];
+//! let limits = ErrorLimits::new(Rounding::Gpu);
+//! let error = largest_error(&formula, (&truth, &[]), 0, &domain, &limits);
+//! assert!(error.proved < 1.01 * error.seen);
+//! # Ok::<(), lgp::program::ParseError>(())
+//! ```
+//!
 //! ```
 //! use lgp::num::Interval;
 //! use lgp::program::{Names, parse};
@@ -59,6 +75,8 @@ pub use prove::{Bound, Limits, Property, Status, Stopped, prove};
 pub use record::{ClaimRecord, StatusRecord, Value, VerdictRecord};
 pub use rounding::Rounding;
 pub use smoothness::{Break, JUMP, Smoothness, Trend};
-pub use truth::{ErrorBound, ErrorLimits, largest_error, largest_error_until};
+pub use truth::{
+    ErrorBound, ErrorLimits, ErrorRecord, TruthRecord, largest_error, largest_error_until,
+};
 pub use variants::{Liberty, Spread, spreads};
 pub use verdict::{Case, Finding, Questions, Verdict};

@@ -163,7 +163,7 @@ fn a_jump_between_branches_is_met() {
 /// Programs to try; `LGP_SOUNDNESS_PROGRAMS` sets another number.
 fn programs() -> usize {
     let set = std::env::var("LGP_SOUNDNESS_PROGRAMS");
-    set.ok().and_then(|n| n.parse().ok()).unwrap_or(6000)
+    set.ok().and_then(|n| n.parse().ok()).unwrap_or(2000)
 }
 
 const POINTS: usize = 24;

@@ -152,12 +152,9 @@ impl Jets {
             local.expect("an operation of one or two arguments");
         to[0] = value;
         let single = op.arity() == 1;
-        let linear = |k: usize| {
-            let first = by_a.times(a[k]);
-            if single { first } else { first.plus(by_b.times(b[k])) }
-        };
-        for k in 1..to.len() {
-            to[k] = linear(k);
+        for (to, (a, b)) in to.iter_mut().zip(a.iter().zip(b)).skip(1) {
+            let first = by_a.times(*a);
+            *to = if single { first } else { first.plus(by_b.times(*b)) };
         }
         if self.order < Order::Curvatures || [aa, ab, bb] == [Span::ZERO; 3] {
             return;
