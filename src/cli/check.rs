@@ -6,11 +6,10 @@ use super::{Common, Failure};
 use crate::dataset::{Column, Dataset};
 use crate::program::{ALWAYS_ASKED, Claim, Names, Program, parse_open, shortest};
 use crate::search::FrontMember;
-use crate::stability::{ClaimRecord, Examination, Questions, Verdict, VerdictRecord};
+use crate::stability::{ClaimRecord, Examination, Questions, TruthRecord, Verdict, VerdictRecord};
 use crate::suggest::did_you_mean;
-use crate::wording::claim_text;
-use crate::wording::cycles_text;
-use crate::wording::examination;
+use crate::truth::{exact_formula, formula_of, read_formula};
+use crate::wording::{claim_text, cycles_text, examination, truth_sentence};
 use rayon::prelude::*;
 use serde_json::json;
 use std::fmt::Write;
@@ -23,7 +22,8 @@ use std::path::{Path, PathBuf};
 /// it also shows what happens at the domain's edges and just outside, what f32 and f16 lose, where,
 /// and in which operation, what compilers may change, and where the formula bends or jumps. The
 /// exit code is 4 if a claim that was asked for is refuted: finite always, ranges with --range,
-/// others with --claim.
+/// others with --claim. Where the formula approximates another (--truth, or data made by --formula),
+/// the largest error over the whole domain is bounded, too.
 ///
 /// For example: lgp check "y = x/(x + 1)" --domain x=0..1 --range 0..0.5
 #[derive(clap::Args)]
@@ -44,6 +44,13 @@ pub struct Args {
     /// with the data; can be given several times
     #[arg(long, value_name = "CLAIM|NAME")]
     claim: Vec<String>,
+    /// The function that the formula approximates, as a formula, to prove the largest error against
+    /// [default: the one that the data are samples of]
+    #[arg(long, value_name = "FORMULA")]
+    truth: Option<String>,
+    /// Fail with exit code 4 unless the error against the truth is proved to be at most this
+    #[arg(long, value_name = "E")]
+    max_error: Option<f64>,
     /// How far a value may leave its range
     #[arg(long, value_name = "S", default_value_t = 1e-5)]
     slack: f64,
@@ -87,6 +94,7 @@ fn of_dataset(args: &Args, path: &Path) -> Result<(Program, Names, Asked), Failu
     let (program, names) = settled(assigned_outputs(&args.formula, &dataset.names())?)?;
     let dataset = dataset.select(Some(&names.inputs), Some(&names.outputs))?;
     let questions = questions(args, &dataset.inputs, &dataset.outputs, &dataset.claims)?;
+    let questions = against(args, questions, formula_of(&dataset), &names)?;
     Ok((program, names, Asked { inputs: dataset.inputs, questions }))
 }
 
@@ -121,7 +129,7 @@ fn of_domain(args: &Args) -> Result<(Program, Names, Asked), Failure> {
     }
     let anything = [f64::NEG_INFINITY, f64::INFINITY];
     let outputs: Vec<Column> = names.outputs.iter().map(|name| column(name, anything)).collect();
-    let questions = questions(args, &inputs, &outputs, &[])?;
+    let questions = against(args, questions(args, &inputs, &outputs, &[])?, None, &names)?;
     Ok((program, names, Asked { inputs, questions }))
 }
 
@@ -153,6 +161,38 @@ fn questions(
         }
     }
     Ok(questions)
+}
+
+/// Adds the truth, which `--truth` gives, or the data.
+fn against(
+    args: &Args,
+    questions: Questions,
+    known: Option<String>,
+    names: &Names,
+) -> Result<Questions, Failure> {
+    let truth = match (&args.truth, known) {
+        (Some(text), _) => {
+            // A single expression is the only output.
+            let text = match names.outputs.as_slice() {
+                [output] if !text.contains('=') => format!("{output} = {text}"),
+                _ => text.clone(),
+            };
+            read_formula(&text, &names.outputs)?;
+            let truth = exact_formula(&text, names).ok_or_else(|| {
+                let inputs = names.inputs.join(", ");
+                Failure::usage(format!("--truth: it must be over the formula's inputs: {inputs}"))
+            })?;
+            Some(truth)
+        }
+        (None, Some(text)) => exact_formula(&text, names),
+        (None, None) => None,
+    };
+    match (&truth, args.max_error) {
+        (None, Some(_)) => Err(Failure::usage(
+            "--max-error needs a truth: give it by --truth, or data made by --formula",
+        )),
+        _ => Ok(Questions { truth, ..questions }),
+    }
 }
 
 /// Returns the claims that come with the data, then those of the command line.
@@ -214,9 +254,10 @@ fn check_one(
         examination::text(&examination, names)
     );
     common.result(&value, &text)?;
-    match refuted(args, &verdict) {
-        Some(claim) => Err(Failure::unmet(claim_text(claim))),
-        None => Ok(()),
+    match (refuted(args, &verdict), beyond(args, &verdict)) {
+        (Some(claim), _) => Err(Failure::unmet(claim_text(claim))),
+        (None, Some(error)) => Err(Failure::unmet(error)),
+        (None, None) => Ok(()),
     }
 }
 
@@ -232,10 +273,19 @@ fn refuted<'a>(args: &Args, verdict: &'a VerdictRecord) -> Option<&'a ClaimRecor
     topics.map(|(_, claim)| claim).find(|claim| claim.exact.status == "refuted")
 }
 
+/// Returns the first error that is not proved to be as small as asked.
+fn beyond(args: &Args, verdict: &VerdictRecord) -> Option<String> {
+    let most = args.max_error?;
+    let is_within = |error: &TruthRecord| error.exact.most.is_some_and(|proved| proved <= most);
+    let beyond = verdict.truth.iter().find(|error| !is_within(error))?;
+    Some(format!("an error of at most {most} is not proved: {}", truth_sentence(beyond)))
+}
+
 fn check_front(args: &Args, folder: &Path, common: &Common) -> Result<(), Failure> {
     let (run, front) = run_folder::load(folder, args.which)?;
     let names = run.names();
     let questions = questions(args, &run.inputs, &run.outputs, &run.claims)?;
+    let questions = against(args, questions, run.truth.clone(), &names)?;
     if let Some(number) = args.pick {
         let member = number.checked_sub(1).and_then(|i| front.members.get(i)).ok_or_else(|| {
             Failure::usage(format!(
@@ -262,7 +312,10 @@ fn check_front(args: &Args, folder: &Path, common: &Common) -> Result<(), Failur
     }
     text += &totals(&verdicts);
     common.result(&records, &text)?;
-    let failed = verdicts.iter().filter(|verdict| refuted(args, verdict).is_some()).count();
+    let fails = |verdict: &&VerdictRecord| {
+        refuted(args, verdict).is_some() || beyond(args, verdict).is_some()
+    };
+    let failed = verdicts.iter().filter(fails).count();
     if failed > 0 {
         let message = format!("{failed} of {} formulas fail in what was asked for", verdicts.len());
         return Err(Failure::unmet(message));
@@ -277,6 +330,7 @@ fn rows(number: usize, member: &FrontMember, verdict: &VerdictRecord) -> String 
     let words: Vec<&str> = good.iter().map(|(topic, _)| *topic).collect();
     let proved = (!words.is_empty()).then(|| format!("{} proved", words.join(", ")));
     let lines = proved.into_iter().chain(bad.iter().map(|(_, claim)| claim_text(claim)));
+    let lines = lines.chain(verdict.truth.iter().map(truth_sentence));
     let mut text = String::new();
     for (i, line) in lines.enumerate() {
         let _ = match i {

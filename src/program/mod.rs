@@ -16,6 +16,7 @@
 //! ```
 
 mod effective;
+mod exact;
 mod hash;
 mod outer;
 mod rewrite;
@@ -23,6 +24,7 @@ pub(crate) mod spelling;
 mod text;
 
 pub use effective::{effective, effective_into, use_counts};
+pub use exact::ExactProgram;
 pub use hash::{Constants, structural_hash};
 pub use outer::Outer;
 pub use text::{

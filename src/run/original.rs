@@ -3,7 +3,7 @@
 use super::Subject;
 use crate::cost::Profile;
 use crate::dataset::Function;
-use crate::program::{Arg, Draft, Names, Program};
+use crate::program::{Names, Program};
 use crate::search::{FrontMember, ScoredIncumbent};
 use crate::truth::read_formula;
 
@@ -29,7 +29,7 @@ impl Subject {
             shader => self.of_shader(shader)?,
         };
         let names = self.dataset.names();
-        Ok(over(&program, &defined, &names).map(|program| ScoredIncumbent {
+        Ok(program.over(&defined, &names).map(|program| ScoredIncumbent {
             name: ORIGINAL.to_owned(),
             member: FrontMember::new(program, &self.dataset, profile, &names),
         }))
@@ -51,26 +51,4 @@ impl Subject {
     fn of_shader(&self, _: &Function) -> Result<(Program, Names), String> {
         Err("this program was built without the reader of shaders".into())
     }
-}
-
-/// Returns a program over other columns, which must have all that it reads and defines.
-fn over(program: &Program, defined: &Names, names: &Names) -> Option<Program> {
-    let place = |all: &[String], name: &String| all.iter().position(|other| other == name);
-    let inputs: Vec<Option<usize>> =
-        defined.inputs.iter().map(|name| place(&names.inputs, name)).collect();
-    let read = |arg: Arg| match arg {
-        Arg::Input(index) => inputs[usize::from(index)].map(|index| Arg::Input(index as u16)),
-        other => Some(other),
-    };
-    let mut draft =
-        Draft { inputs: names.inputs.len(), consts: program.consts.clone(), ..Draft::default() };
-    for instr in &program.instrs {
-        let args: Option<Vec<Arg>> = instr.args().iter().map(|&arg| read(arg)).collect();
-        draft.push(instr.op(), &args?);
-    }
-    for output in &names.outputs {
-        let index = place(&defined.outputs, output)?;
-        draft.outputs.push(read(program.outputs[index])?);
-    }
-    Program::verify(draft).ok()
 }

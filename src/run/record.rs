@@ -10,6 +10,7 @@ use crate::program::Names;
 use crate::scene::Scene;
 use crate::search::{Counts, Enumeration, Goal, Method, Problem};
 use crate::stability::Questions;
+use crate::truth::{exact_formula, formula_of};
 use serde::{Deserialize, Serialize, Serializer};
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
@@ -38,6 +39,9 @@ pub struct Run {
     /// The dataset's claims.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub claims: Vec<String>,
+    /// The formula that the data are samples of, if they are.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub truth: Option<String>,
     /// The grammar's name.
     pub grammar: String,
     /// The grammar as it was; records of an older version lack it.
@@ -134,6 +138,7 @@ impl Run {
             inputs: data.inputs.clone(),
             outputs: data.outputs.clone(),
             claims: data.claims.clone(),
+            truth: formula_of(data),
             grammar: grammar.name.clone(),
             rules: Some(Grammar::clone(grammar)),
             gpu: problem.profile().name.clone(),
@@ -166,7 +171,8 @@ impl Run {
 
     /// Returns what is asked of its formulas.
     pub fn questions(&self) -> Questions {
-        Questions::of(&self.inputs, &self.outputs, &self.claims)
+        let truth = self.truth.as_ref().and_then(|text| exact_formula(text, &self.names()));
+        Questions { truth, ..Questions::of(&self.inputs, &self.outputs, &self.claims) }
     }
 
     /// Returns the grammar as it was, or, if the record lacks it, the built-in one of its name.

@@ -12,6 +12,7 @@ use crate::stability::{
     Bound, Limits, Property, Questions, Rounding, Status, half_error, points_in, prove,
 };
 use crate::suggest::did_you_mean;
+use crate::truth::{exact_formula, formula_of};
 use serde::{Deserialize, Serialize};
 
 /// A condition on formulas. Those on values are checked on samples; before a formula is shown, a
@@ -442,6 +443,8 @@ impl Problem {
 
     /// Returns the questions by which every formula that is shown is judged.
     pub fn questions(&self) -> Questions {
-        self.checks.questions(&self.dataset)
+        let truth =
+            formula_of(&self.dataset).and_then(|text| exact_formula(&text, &self.dataset.names()));
+        Questions { truth, ..self.checks.questions(&self.dataset) }
     }
 }

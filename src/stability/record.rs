@@ -1,6 +1,6 @@
 //! Verdicts as in `front.json` and the output of `lgp check --json`.
 
-use super::{Finding, Status, Verdict};
+use super::{ErrorRecord, Finding, Status, TruthRecord, Verdict};
 use crate::program::{ALWAYS_ASKED, Names};
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
@@ -13,6 +13,9 @@ pub struct VerdictRecord {
     /// The claim that outputs stay in their ranges; none if no output has one.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub range: Option<ClaimRecord>,
+    /// The largest error of each output against the truth; empty if that is not known as a formula.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub truth: Vec<TruthRecord>,
     /// The other claims, by name.
     #[serde(flatten)]
     pub claims: BTreeMap<String, ClaimRecord>,
@@ -69,7 +72,7 @@ impl Default for VerdictRecord {
     fn default() -> VerdictRecord {
         let sampled = StatusRecord::plain("sampled");
         let finite = ClaimRecord { exact: sampled, claim: None, gpu: None };
-        VerdictRecord { finite, range: None, claims: BTreeMap::new() }
+        VerdictRecord { finite, range: None, truth: Vec::new(), claims: BTreeMap::new() }
     }
 }
 
@@ -81,10 +84,15 @@ impl VerdictRecord {
     pub fn new(verdict: &Verdict, names: &Names) -> VerdictRecord {
         let of = |topic: &str| Some(ClaimRecord::new(verdict.worst(topic)?, names));
         let [finite, range] = ALWAYS_ASKED;
+        let truth = names.outputs.iter().zip(&verdict.errors).map(|(output, [exact, gpu])| {
+            let gpu = Some(ErrorRecord::new(gpu, names));
+            TruthRecord { output: output.clone(), exact: ErrorRecord::new(exact, names), gpu }
+        });
         let topics = verdict.topics().into_iter().filter(|topic| !ALWAYS_ASKED.contains(topic));
         VerdictRecord {
             finite: of(finite).expect("every output is asked whether it is finite"),
             range: of(range),
+            truth: truth.collect(),
             claims: topics.filter_map(|topic| Some((topic.to_owned(), of(topic)?))).collect(),
         }
     }

@@ -1,11 +1,12 @@
 //! The questions asked of every formula over its domain, and their outcomes.
 
 use super::prove::prove_until;
+use super::truth::{ErrorBound, ErrorLimits, largest_error_until};
 use super::{Bound, Limits, Property, Rounding, Status, Stopped};
 use crate::dataset::Column;
 use crate::num::{Interval, inside};
 use crate::op::Op;
-use crate::program::{ALWAYS_ASKED, Arg, Claim, Draft, Names, Program, shortest};
+use crate::program::{ALWAYS_ASKED, Arg, Claim, Draft, ExactProgram, Names, Program, shortest};
 use crate::simplify::folded_draft;
 
 /// The questions about a formula over a domain.
@@ -19,6 +20,9 @@ pub struct Questions {
     pub claims: Vec<Claim>,
     /// The absolute amount by which a value may leave its range.
     pub slack: f64,
+    /// The function in real numbers that the outputs approximate, over the same inputs, if it is
+    /// known.
+    pub truth: Option<ExactProgram>,
 }
 
 const FINITE: &str = ALWAYS_ASKED[0];
@@ -43,6 +47,7 @@ impl Questions {
             ranges: outputs.iter().map(range).collect(),
             claims: claims.iter().filter_map(|text| Claim::parse(text, &names).ok()).collect(),
             slack: Limits::new(Rounding::Exact).slack,
+            truth: None,
         }
     }
 
@@ -219,6 +224,9 @@ pub struct Finding {
 pub struct Verdict {
     /// One finding for each property, in the order asked.
     pub findings: Vec<Finding>,
+    /// The largest error of each output against the truth, if it is known: in the interpreter's
+    /// arithmetic, and in any arithmetic that GPUs are allowed.
+    pub errors: Vec<[ErrorBound; 2]>,
 }
 
 /// The rounding of a claim's own expression between a variable's ends, which alone are checked.
@@ -248,13 +256,25 @@ impl Verdict {
     ) -> Verdict {
         let groups = questions.groups(program).into_iter();
         let decided = groups.flat_map(|group| group.decided(questions.slack, boxes, stopped));
-        Verdict { findings: decided.collect() }
+        let findings = decided.collect();
+        let bound = |output, rounding, truth: &ExactProgram| {
+            let limits = ErrorLimits { boxes, ..ErrorLimits::new(rounding) };
+            let (truth, domain) = ((&truth.program, truth.constants.as_slice()), &questions.domain);
+            largest_error_until(program, truth, output, domain, &limits, stopped)
+        };
+        let errors = questions.truth.iter().flat_map(|truth| {
+            let each = [Rounding::Exact, Rounding::Gpu];
+            (0..program.outputs.len()).map(move |o| each.map(|rounding| bound(o, rounding, truth)))
+        });
+        Verdict { findings, errors: errors.collect() }
     }
 
     /// Returns true if nothing is left open.
     pub fn is_decided(&self) -> bool {
         let open = |status: &Status| matches!(status, Status::Open { .. });
-        !self.findings.iter().any(|finding| open(&finding.exact) || open(&finding.gpu))
+        let unbounded = self.errors.iter().flatten().any(|bound| bound.volume > 0.0);
+        !unbounded
+            && !self.findings.iter().any(|finding| open(&finding.exact) || open(&finding.gpu))
     }
 
     /// Returns the topics, each once, in the order asked.

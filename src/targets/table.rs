@@ -42,6 +42,7 @@ impl Table<'_> {
                 2 => 100,
                 _ => 21,
             },
+            ends: false,
             sampling: sampling_of(self.recipe),
             seed: self.recipe.count(SAMPLING_SEED.name) as u64,
             progress,

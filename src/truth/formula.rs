@@ -1,9 +1,9 @@
 //! Formulas as truths: formula text, evaluated in double precision.
 
 use super::{Error, Truth, axes_of, write_domain};
-use crate::dataset::{Axis, Function, Origin};
+use crate::dataset::{Axis, Dataset, Function, Origin};
 use crate::eval::Double;
-use crate::program::{ParseError, Parsed, parse_open};
+use crate::program::{ExactProgram, Names, ParseError, Parsed, parse_open};
 use std::sync::Arc;
 
 impl Truth {
@@ -24,6 +24,25 @@ impl Truth {
             Arc::new(move |point: &[f64]| Ok(Double.evaluate_exact(&program, &exact, point)));
         Truth::new(outputs.join("_"), axes, outputs, origin, function)
     }
+}
+
+/// Returns the formula that data are samples of, over their columns; none if they are not samples
+/// of a formula, or have other columns.
+pub fn formula_of(dataset: &Dataset) -> Option<String> {
+    match &dataset.origin {
+        Origin::Function { function: Function::Formula { text }, .. } => {
+            exact_formula(text, &dataset.names()).map(|_| text.clone())
+        }
+        Origin::Pruned { of, .. } => {
+            formula_of(&Dataset { origin: (**of).clone(), ..dataset.clone() })
+        }
+        _ => None,
+    }
+}
+
+/// Parses a formula over columns; none if they lack what it reads, or it defines not all of them.
+pub fn exact_formula(text: &str, names: &Names) -> Option<ExactProgram> {
+    ExactProgram::of(read_formula(text, &names.outputs).ok()?, names)
 }
 
 /// Parses a formula over inputs that its text names; its outputs are those named, or the statements

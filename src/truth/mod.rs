@@ -12,7 +12,7 @@
 //! let exact = truth.at(&[0.5, 1e-3])?[0];
 //! assert!((exact - 0.125).abs() < 1e-8);
 //! let data = truth.dataset(None, &|_, _| ())?;
-//! assert_eq!(data.search.rows(), 64 * 64);
+//! assert_eq!(data.search.rows(), 66 * 66);
 //! # Ok::<(), lgp::truth::Error>(())
 //! ```
 
@@ -24,7 +24,7 @@ mod splits;
 
 pub use domain::{axes_of, column_name, parse_domain, write_domain};
 pub use error::Error;
-pub use formula::read_formula;
+pub use formula::{exact_formula, formula_of, read_formula};
 pub use sampling::{MOST_AXES, Sampling};
 pub use splits::{Grids, Progress, Value, scattered_splits};
 
@@ -155,7 +155,7 @@ impl Truth {
         }
     }
 
-    /// Samples it: `points` along each axis of the search grid, or in all if there are more than
+    /// Samples it: `points` along each axis of the search grid and its ends, or in all if there are more than
     /// three inputs. By default 1024, 64, 16, and 8192 in all.
     ///
     /// # Errors
@@ -178,7 +178,9 @@ impl Truth {
                 // Half as dense again as the search grid, as those of the targets are.
                 let intervals = points * 3 / 2;
                 let axes = &self.axes;
-                Grids { axes, points, intervals, sampling, seed: 0, progress }.splits(&function)?
+                let grids =
+                    Grids { axes, points, ends: true, intervals, sampling, seed: 0, progress };
+                grids.splits(&function)?
             }
         };
         let outputs = self.outputs.iter().map(|name| (name.as_str(), "1"));

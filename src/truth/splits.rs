@@ -25,6 +25,9 @@ pub struct Grids<'a> {
     pub axes: &'a [Axis],
     /// The points along each axis of the search grid.
     pub points: usize,
+    /// True if the ends of each axis are in the search split, too, so that a maximum there counts;
+    /// the domain's corners are then in both splits.
+    pub ends: bool,
     /// The intervals along each axis of the validation grid, about.
     pub intervals: usize,
     /// The places of the search split's samples.
@@ -49,7 +52,10 @@ impl Grids<'_> {
         let along = |points: &dyn Fn(&Axis) -> Vec<f32>| -> Vec<Vec<f32>> {
             self.axes.iter().map(points).collect()
         };
-        let centres = along(&|axis| axis.centres(self.points));
+        let centres = along(&|axis| match self.ends {
+            true => [vec![axis.at(0.0)], axis.centres(self.points), vec![axis.at(1.0)]].concat(),
+            false => axis.centres(self.points),
+        });
         let nodes = along(&|axis| axis.nodes(intervals));
         let axes = self.axes.len();
         let splits_of_points = if self.sampling == Sampling::Adaptive { 2 } else { 1 };

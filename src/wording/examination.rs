@@ -1,10 +1,11 @@
 //! The findings of `lgp check` on a formula, as text and as JSON.
 
+use super::truth::truth_sentence;
 use super::verdict::{number_text, share_text, status_text};
 use crate::program::{Arg, Names, Program, effective, print_expression};
 use crate::stability::{
     At, Blame, Break, Cause, ClaimRecord, Examination, Extreme, Finding, JUMP, Liberty,
-    PrecisionLoss, Status, Trend, Tried,
+    PrecisionLoss, Status, Trend, Tried, VerdictRecord,
 };
 use serde_json::{Value, json};
 use std::fmt::Write;
@@ -12,7 +13,15 @@ use std::fmt::Write;
 /// Returns the examination as text, a paragraph for each question.
 pub fn text(examination: &Examination, names: &Names) -> String {
     let page = Page { examination, names };
-    [page.claims(), page.extremes(), page.precision(), page.liberties(), page.smoothness()].concat()
+    [
+        page.claims(),
+        page.truth(),
+        page.extremes(),
+        page.precision(),
+        page.liberties(),
+        page.smoothness(),
+    ]
+    .concat()
 }
 
 struct Page<'a> {
@@ -65,6 +74,12 @@ impl Page<'_> {
             text.push('\n');
         }
         text
+    }
+
+    fn truth(&self) -> String {
+        let record = VerdictRecord::new(&self.examination.verdict, self.names);
+        let sentences = record.truth.iter().map(|error| format!("{}\n", truth_sentence(error)));
+        sentences.collect()
     }
 
     fn extremes(&self) -> String {

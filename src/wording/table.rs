@@ -1,7 +1,9 @@
 //! A front as a table of text, with published formulas on the same axes.
 
+use super::truth::rounded_up;
 use crate::fit::Measure;
 use crate::search::{Front, FrontMember, ScoredIncumbent};
+use crate::stability::TruthRecord;
 use std::fmt::Write;
 
 /// Returns the front by rising cost, each member's formula under its numbers, incumbents where
@@ -73,7 +75,11 @@ fn statuses(member: &FrontMember) -> String {
     let said = words.iter().filter(|(_, topics)| !topics.is_empty());
     let said: Vec<String> =
         said.map(|(status, topics)| format!("{} {status}", topics.join(", "))).collect();
-    format!("  {}", said.join("; "))
+    let bound = |error: &TruthRecord| error.exact.most;
+    let bounds: Option<Vec<f64>> = verdict.truth.iter().map(bound).collect();
+    let largest = bounds.and_then(|all| all.into_iter().reduce(f64::max));
+    let proved = largest.map(|most| format!("; error ≤ {} proved", rounded_up(most)));
+    format!("  {}{}", said.join("; "), proved.unwrap_or_default())
 }
 
 fn numbers(member: &FrontMember, measure: Measure) -> String {

@@ -1,5 +1,6 @@
 //! Verdicts in words.
 
+use super::truth::truth_sentence;
 use crate::stability::{ClaimRecord, StatusRecord, Value, VerdictRecord};
 use std::collections::BTreeMap;
 
@@ -9,7 +10,8 @@ pub fn verdict_lines(verdict: &VerdictRecord) -> Vec<String> {
         return vec!["finite on every sample of both splits".to_owned()];
     }
     let topics = verdict.topics().into_iter();
-    topics.map(|(topic, claim)| format!("{topic}: {}", claim_text(claim))).collect()
+    let claims = topics.map(|(topic, claim)| format!("{topic}: {}", claim_text(claim)));
+    claims.chain(verdict.truth.iter().map(truth_sentence)).collect()
 }
 
 /// Describes a claim's status in the interpreter's arithmetic, and on GPUs where that differs.

@@ -23,6 +23,9 @@ pub struct Claim {
 /// The names of the claims that every formula is checked for.
 pub const ALWAYS_ASKED: [&str; 2] = ["finite", "range"];
 
+/// The name of the bound on the error against a truth, in verdicts.
+const TRUTH: &str = "truth";
+
 /// In bytes. By hand: more than a comparison needs.
 const LONGEST: usize = 1000;
 /// By hand: proofs subdivide each variable's range.
@@ -95,10 +98,12 @@ fn check_name(text: &str) -> Result<usize, ParseError> {
     let name = Claim::name_of(text);
     match text.find(':') {
         None => wrong(0, SHAPE.into()),
-        Some(colon) if is_identifier(name) && !ALWAYS_ASKED.contains(&name) => Ok(colon),
+        Some(colon) if is_identifier(name) && !ALWAYS_ASKED.contains(&name) && name != TRUTH => {
+            Ok(colon)
+        }
         Some(_) => wrong(
             0,
-            format!("`{name}` cannot name a claim: give a word other than finite and range"),
+            format!("`{name}` cannot name a claim: give a word other than finite, range and truth"),
         ),
     }
 }
