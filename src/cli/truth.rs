@@ -57,11 +57,7 @@ impl Sampled {
                 Ok(Some(Truth::formula(formula, outputs, &self.axes()?)?))
             }
             (None, Some(file)) if Language::of(file).is_some() => {
-                let domain = self.axes()?;
-                let ranged = domain.iter().map(|axis| axis.name.to_string()).collect();
-                let (entry, set) = (self.entry.clone(), self.set.clone());
-                let options = Options { entry, set, define: self.define.clone(), ranged };
-                Ok(Some(Shader::load(file, &options)?.truth(&domain)?))
+                Ok(Some(self.shader(file, None)?.truth(&self.axes()?)?))
             }
             (None, _) => Ok(None),
         }
@@ -94,6 +90,14 @@ impl Sampled {
         }
     }
 
+    /// Returns a function of a shader file, with the options' definitions.
+    pub fn shader(&self, file: &Path, entry: Option<&str>) -> Result<Shader, Failure> {
+        let ranged = self.axes()?.iter().map(|axis| axis.name.to_string()).collect();
+        let entry = entry.map(str::to_owned).or(self.entry.clone());
+        let options = Options { entry, set: self.set.clone(), define: self.define.clone(), ranged };
+        Ok(Shader::load(file, &options)?)
+    }
+
     /// Returns the samples of the function.
     pub fn dataset(&self, truth: &Truth, common: &Common) -> Result<Dataset, Failure> {
         let bar = common.progress("evaluating");
@@ -106,7 +110,8 @@ impl Sampled {
         Ok(dataset?)
     }
 
-    fn axes(&self) -> Result<Vec<Axis>, Failure> {
+    /// Returns the domain.
+    pub fn axes(&self) -> Result<Vec<Axis>, Failure> {
         let Some(domain) = &self.domain else {
             return Err(Failure::usage("say where the function is sampled, as in --domain x=0..1"));
         };

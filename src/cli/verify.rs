@@ -1,14 +1,18 @@
 //! `lgp verify`: a shader file against the data and its own comment.
 
+use super::truth::Sampled;
 use super::{Common, Failure};
 use crate::dataset::Dataset;
 use crate::emit::{Language, MAX_SNIPPET, ReadBack, Stated, StatedError, read_back};
 use crate::eval::{Evaluator, OutputError, Samples, Score, Tape};
 use crate::program::{Names, Program};
 use crate::run::Subject;
+use crate::shader::Shader;
 use crate::suggest::did_you_mean;
+use crate::truth::Truth;
 use crate::wording::error_text;
 use serde::Serialize;
+use std::cell::RefCell;
 use std::collections::BTreeMap;
 use std::fmt::Display;
 use std::io::Read;
@@ -23,13 +27,29 @@ use std::path::{Path, PathBuf};
 /// otherwise is refused with its line: integers, other types, lines of the preprocessor, a
 /// backslash at a line's end.
 ///
+/// With --against it compares with another function, or with --formula with a formula, over a
+/// --domain.
+///
 /// For example: lgp verify dfg.wgsl datasets/dfg.bin --max-error 0.01
+///
+/// Or: lgp verify new.wgsl --against old.wgsl --domain n_dot_v=0..1 --max-error 0.001
 #[derive(clap::Args)]
 pub struct Args {
     #[arg(help = format!("A {} file with one function", extensions()))]
     snippet: PathBuf,
-    /// The dataset: a file from `lgp generate` or `lgp import`
-    dataset: PathBuf,
+    /// The dataset: a file from `lgp generate` or `lgp import`; not needed with --against or
+    /// --formula
+    #[arg(required_unless_present_any = ["against", "formula"])]
+    dataset: Option<PathBuf>,
+    /// In place of a dataset: a shader file, whose function is evaluated in double precision over
+    /// the --domain. Then both files may hold any function: loops, branches, vectors
+    #[arg(long, value_name = "FILE", conflicts_with_all = ["dataset", "formula"])]
+    against: Option<PathBuf>,
+    /// The function of the --against file that is meant [default: as --entry]
+    #[arg(long, value_name = "NAME", requires = "against")]
+    against_entry: Option<String>,
+    #[command(flatten)]
+    sampled: Sampled,
     /// Evaluate on what a scene needs of the dataset: a scene beside it, or a .ron file
     #[arg(long, value_name = "S")]
     scene: Option<String>,
@@ -64,27 +84,123 @@ fn error_bound(text: &str) -> Result<f64, String> {
 }
 
 pub fn run(args: &Args, common: &Common) -> Result<(), Failure> {
+    match &args.dataset {
+        Some(dataset) => {
+            args.sampled.refuse_functions()?;
+            snippet_on(args, dataset, common)
+        }
+        None => function_against(args, common),
+    }
+}
+
+/// Compares a function with another, in single precision against double.
+fn function_against(args: &Args, common: &Common) -> Result<(), Failure> {
+    let new = args.sampled.shader(&args.snippet, None)?;
+    let truth = match &args.against {
+        Some(old) => {
+            let entry = args.against_entry.as_deref();
+            args.sampled.shader(old, entry)?.truth(&args.sampled.axes()?)?
+        }
+        None => {
+            let formula = args.sampled.formula.as_deref().unwrap_or_default();
+            let outputs = args.outputs.as_deref().unwrap_or_default();
+            Truth::formula(formula, outputs, &args.sampled.axes()?)?
+        }
+    };
+    let axes: Vec<String> = truth.axes().iter().map(|axis| axis.name.to_string()).collect();
+    if axes != truth.inputs() {
+        let message = "--let of an input by parameters: compare functions over their parameters";
+        return Err(Failure::usage(message));
+    }
+    let order = order_of(&new, &axes, truth.outputs(), &args.snippet)?;
+    let dataset = args.sampled.dataset(&truth, common)?;
+    let failed = RefCell::new(None);
+    let score = Score::of_values(&dataset, |split| {
+        let mut outputs = vec![Vec::with_capacity(split.rows()); order.outputs.len()];
+        for row in 0..split.rows() {
+            let point: Vec<f32> =
+                order.inputs.iter().map(|&column| split.columns[column][row]).collect();
+            let values = new.at_in_single(&point).unwrap_or_else(|error| {
+                failed.borrow_mut().get_or_insert(error);
+                vec![f32::NAN; order.outputs.len()]
+            });
+            for (output, &place) in outputs.iter_mut().zip(&order.outputs) {
+                output.push(values[place]);
+            }
+        }
+        outputs
+    });
+    if let Some(error) = failed.into_inner() {
+        return Err(error.into());
+    }
+    conclude(args, &score, truth.outputs(), false, None, common)
+}
+
+/// The places of a function's inputs among columns, and of columns among its outputs.
+struct Order {
+    inputs: Vec<usize>,
+    outputs: Vec<usize>,
+}
+
+fn order_of(
+    new: &Shader,
+    inputs: &[String],
+    outputs: &[String],
+    path: &Path,
+) -> Result<Order, Failure> {
+    let place = |all: &[String], name: &String| all.iter().position(|other| other == name);
+    let differ = |what: &str, mine: &[String], others: &[String]| {
+        let (mine, others) = (mine.join(", "), others.join(", "));
+        unusable(path, &format!("{what} {mine}, but the other function {what} {others}"))
+    };
+    let takes: Option<Vec<usize>> = new.inputs().iter().map(|name| place(inputs, name)).collect();
+    let takes = takes.filter(|takes| takes.len() == inputs.len());
+    let takes = takes.ok_or_else(|| differ("takes", new.inputs(), inputs))?;
+    let named: Option<Vec<usize>> = outputs.iter().map(|name| place(new.outputs(), name)).collect();
+    // Functions of other names return the same in the same order.
+    let in_order = (new.outputs().len() == outputs.len()).then(|| (0..outputs.len()).collect());
+    let returns = named.or(in_order).ok_or_else(|| differ("returns", new.outputs(), outputs))?;
+    Ok(Order { inputs: takes, outputs: returns })
+}
+
+fn snippet_on(args: &Args, dataset: &Path, common: &Common) -> Result<(), Failure> {
     let language = language_of(&args.snippet)?;
     let text = snippet_text(&args.snippet)?;
     let code = read_back(language, &text).map_err(|error| unusable(&args.snippet, &error))?;
     let Subject { dataset: whole, .. } =
-        Subject::load(&args.dataset, args.scene.as_deref(), |data| Ok(data.clone()))?;
+        Subject::load(dataset, args.scene.as_deref(), |data| Ok(data.clone()))?;
     let names = columns(code.names.clone(), args.outputs.as_deref(), &whole, &args.snippet)?;
     let dataset = whole.select(Some(&names.inputs), Some(&names.outputs))?;
     let score = score(&code, &dataset);
     let stated = stated(&code, &names).map_err(|error| unusable(&args.snippet, &error))?;
     let mismatch = stated.as_ref().and_then(|stated| mismatch(&code, stated, &dataset, &names));
+    let agreement = stated.map(|_| mismatch);
+    conclude(args, &score, &names.outputs, code.in_half, agreement, common)
+}
+
+/// Shows the errors, and fails if they are too large or the code is not as its comment says:
+/// `commented` is the reason, if it has such a comment.
+fn conclude(
+    args: &Args,
+    score: &Score,
+    outputs: &[String],
+    half: bool,
+    commented: Option<Option<String>>,
+    common: &Common,
+) -> Result<(), Failure> {
+    let as_commented = commented.as_ref().map(Option::is_none);
+    let mismatch = commented.flatten();
     let (search, validation) = (score.joint_search(), score.joint_validation());
     let met = score.is_finite() && search.rmse <= args.max_error && mismatch.is_none();
     let verified = Verified {
         met,
-        half: code.in_half,
+        half,
         max_error_allowed: args.max_error,
         rmse: search.rmse,
         max_error: search.max,
         validation,
-        errors: names.outputs.iter().cloned().zip(score.search.iter().copied()).collect(),
-        as_commented: stated.map(|_| mismatch.is_none()),
+        errors: outputs.iter().cloned().zip(score.search.iter().copied()).collect(),
+        as_commented,
     };
     common.result(&verified, &shown(&verified))?;
     let unmet = |reason: String| Err(unmet(&args.snippet, &reason));

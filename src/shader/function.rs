@@ -3,7 +3,7 @@
 
 use super::definition::{Definition, free_names, split};
 use super::interpreter::{Interpreter, Step, Stop};
-use super::machine::{Exact, Machine};
+use super::machine::{Exact, Machine, Single};
 use super::parameters::{Parameter, Part, Role, arguments, as_kind, globals, parts, wgsl_type};
 use super::source::Source;
 use super::symbols::Symbols;
@@ -249,8 +249,13 @@ impl Subject {
     /// Evaluates the function in double precision, at a value for each name that is sampled;
     /// returns the derived columns, then the outputs.
     pub fn at(&self, point: &[f64]) -> Result<Vec<f64>, Error> {
-        let mut machine = Exact;
-        let evaluated = self.evaluated(&mut machine, point);
+        let evaluated = self.evaluated(&mut Exact::default(), point);
+        evaluated.map_err(|stop| self.source.stopped(&stop))
+    }
+
+    /// Evaluates the function in single precision.
+    pub fn at_in_single(&self, point: &[f32]) -> Result<Vec<f32>, Error> {
+        let evaluated = self.evaluated(&mut Single::default(), point);
         evaluated.map_err(|stop| self.source.stopped(&stop))
     }
 

@@ -3,6 +3,7 @@
 use crate::eval::{Arithmetic, Double};
 use crate::op::{MAX_ARITY, Op};
 use std::fmt::Debug;
+use std::marker::PhantomData;
 
 /// Functions of shading languages that no operation is.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -64,38 +65,85 @@ pub(super) trait Machine {
     }
 }
 
-/// Double precision: what the shader means.
-#[derive(Clone, Copy, Debug, Default)]
-pub(super) struct Exact;
+/// Numbers of one precision, all of them known.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Concrete<T>(PhantomData<T>);
 
-impl Machine for Exact {
-    type Float = f64;
+/// Double precision: what the shader means.
+pub(super) type Exact = Concrete<f64>;
+/// Single precision, as the interpreter of formulas computes.
+pub(super) type Single = Concrete<f32>;
+
+impl<T> Default for Concrete<T> {
+    fn default() -> Self {
+        Concrete(PhantomData)
+    }
+}
+
+/// A precision.
+pub(super) trait Number: Copy + Debug + PartialOrd {
+    fn of(value: f64) -> Self;
+    fn value(self) -> f64;
+    fn apply(op: Op, args: [Self; MAX_ARITY]) -> Self;
+}
+
+impl Number for f64 {
+    fn of(value: f64) -> f64 {
+        value
+    }
+
+    fn value(self) -> f64 {
+        self
+    }
+
+    fn apply(op: Op, args: [f64; MAX_ARITY]) -> f64 {
+        Double.apply(op, args)
+    }
+}
+
+impl Number for f32 {
+    fn of(value: f64) -> f32 {
+        value as f32
+    }
+
+    fn value(self) -> f64 {
+        self.into()
+    }
+
+    fn apply(op: Op, args: [f32; MAX_ARITY]) -> f32 {
+        op.apply(args)
+    }
+}
+
+impl<T: Number> Machine for Concrete<T> {
+    type Float = T;
     type Bool = bool;
 
     const SYMBOLIC: bool = false;
 
-    fn float(&mut self, value: f64) -> f64 {
-        value
+    fn float(&mut self, value: f64) -> T {
+        T::of(value)
     }
 
     fn boolean(&mut self, value: bool) -> bool {
         value
     }
 
-    fn known(&self, value: f64) -> Option<f64> {
-        Some(value)
+    fn known(&self, value: T) -> Option<f64> {
+        Some(value.value())
     }
 
     fn decided(&self, condition: bool) -> Option<bool> {
         Some(condition)
     }
 
-    fn apply(&mut self, op: Op, args: [f64; MAX_ARITY]) -> Result<f64, Reason> {
-        Ok(Double.apply(op, args))
+    fn apply(&mut self, op: Op, args: [T; MAX_ARITY]) -> Result<T, Reason> {
+        Ok(T::apply(op, args))
     }
 
-    fn extra(&mut self, function: Extra, a: f64, b: f64) -> Result<f64, Reason> {
-        Ok(match function {
+    fn extra(&mut self, function: Extra, a: T, b: T) -> Result<T, Reason> {
+        let (a, b) = (a.value(), b.value());
+        Ok(T::of(match function {
             Extra::Sinh => libm::sinh(a),
             Extra::Cosh => libm::cosh(a),
             Extra::Asinh => libm::asinh(a),
@@ -103,14 +151,14 @@ impl Machine for Exact {
             Extra::Atanh => libm::atanh(a),
             Extra::Round => a.round_ties_even(),
             Extra::Remainder => a % b,
-        })
+        }))
     }
 
-    fn less(&mut self, a: f64, b: f64) -> bool {
+    fn less(&mut self, a: T, b: T) -> bool {
         a < b
     }
 
-    fn equal(&mut self, a: f64, b: f64) -> bool {
+    fn equal(&mut self, a: T, b: T) -> bool {
         a == b
     }
 
@@ -126,7 +174,7 @@ impl Machine for Exact {
         a || b
     }
 
-    fn choose(&mut self, condition: bool, yes: f64, no: f64) -> Result<f64, Reason> {
+    fn choose(&mut self, condition: bool, yes: T, no: T) -> Result<T, Reason> {
         Ok(if condition { yes } else { no })
     }
 }

@@ -186,6 +186,17 @@ impl Shader {
         }
     }
 
+    /// Evaluates the function as [`Shader::at`] does, in single precision.
+    ///
+    /// # Errors
+    /// As [`Shader::at`].
+    pub fn at_in_single(&self, point: &[f32]) -> Result<Vec<f32>, Error> {
+        match &self.body {
+            Body::Interpreted(subject) => subject.at_in_single(point),
+            Body::Straight(straight) => Ok(straight.program.evaluate(point)),
+        }
+    }
+
     /// Returns the function as a program over its inputs: loops unrolled, branches as choices.
     ///
     /// # Errors
