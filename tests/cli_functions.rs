@@ -55,14 +55,14 @@ fn a_shader_is_approximated_and_stands_beside_the_front() {
     let lines: Vec<&str> = front.lines().collect();
     let place = lines.iter().position(|line| line.contains("original: not dominated"));
     let place = place.unwrap_or_else(|| panic!("{front}"));
-    // −¼x² once, then a product and a sum for each term; rounding alone is its error.
+    // −¼x² once, then two products and a sum for each term; rounding alone is its error.
     let numbers: Vec<&str> = lines[place - 1].split_whitespace().collect();
     let (cycles, rmse): (f64, f64) = (numbers[1].parse().unwrap(), numbers[2].parse().unwrap());
-    assert!((20.0..=30.0).contains(&cycles) && rmse < 1e-6, "{front}");
+    assert!((30.0..=40.0).contains(&cycles) && rmse < 1e-6, "{front}");
     let members: Value =
         serde_json::from_str(&succeed(folder.path(), &["front", "run", "--json"])).unwrap();
     let is_cheaper = |member: &Value| {
-        member["cost"].as_f64().unwrap() < cycles / 2.0 && member["rmse"].as_f64().unwrap() < 1e-3
+        member["cost"].as_f64().unwrap() < cycles / 4.0 && member["rmse"].as_f64().unwrap() < 1e-3
     };
     assert!(members.as_array().unwrap().iter().any(is_cheaper), "{front}");
     // All is in the folder: neither the shader nor the path to it is needed.
@@ -86,15 +86,17 @@ fn a_formula_is_sampled_in_double_precision() {
     let data = Dataset::load(&folder.path().join("z.bin")).unwrap();
     // Only what no other statement reads is an output.
     assert_eq!(data.names().outputs, ["z"]);
-    assert_eq!(data.search.rows(), 66);
+    // 64 centres, the ends, and points that come nearer to each by halves, from 2^-8 to 2^-24.
+    assert_eq!(data.search.rows(), 64 + 2 + 2 * 17);
     let [x, z] = [0, 1].map(|column| &data.search.columns[column]);
     for (&x, &z) in x.iter().zip(z) {
         let half = f64::from(x) * 0.5;
         let exact = 0.1 + (half.sin() / half).powi(2);
         assert!((f64::from(z) - exact).abs() < 1e-7, "{x}: {z} {exact}");
     }
-    let ratio = x[2] / x[1];
-    assert!(x[1..65].windows(2).all(|pair| (pair[1] / pair[0] / ratio - 1.0).abs() < 1e-4));
+    let centres = &x[18..82];
+    let ratio = centres[1] / centres[0];
+    assert!(centres.windows(2).all(|pair| (pair[1] / pair[0] / ratio - 1.0).abs() < 1e-4));
     let info = succeed(folder.path(), &["info", "z.bin"]);
     assert!(info.contains("over x=0.0001..1.0:log"), "{info}");
 }

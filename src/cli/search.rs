@@ -101,7 +101,7 @@ pub fn run(args: &Args, common: &Common) -> Result<(), Failure> {
     let mut timings = Timings::new();
     let Plan { subject, session } = Plan::of(args, common)?;
     let profile = session.search().problem().profile();
-    let incumbents = subject.published(&session.record().dataset, profile)?;
+    let incumbents = subject.published(&data_path(&session), profile)?;
     if let Err(reason) = subject.original(profile) {
         common.note(&format!("the original cannot be compared with: {reason}"));
     }
@@ -147,6 +147,13 @@ pub fn run(args: &Args, common: &Common) -> Result<(), Failure> {
         return Err(Failure::unmet(reason));
     }
     tiers::check(run, front)
+}
+
+/// Returns the path of the data: from here, or in the run's folder.
+fn data_path(session: &Session) -> PathBuf {
+    let noted = &session.record().dataset;
+    let kept = session.folder().map(|folder| folder.join(noted));
+    kept.filter(|path| path.is_file()).unwrap_or_else(|| noted.clone())
 }
 
 /// Steps until the budget is spent or the user stops it.

@@ -155,19 +155,20 @@ impl Folder {
     }
 
     /// Keeps a dataset beside the run that is made of it, under a name that no other has, so that
-    /// what is there stays whole; returns its path. [`Folder::exchange`] removes it when another run
-    /// takes the place of its own.
+    /// what is there stays whole; returns its path from the folder, as the run notes it.
+    /// [`Folder::exchange`] removes it when another run takes the place of its own.
     ///
     /// # Errors
     /// [`RecordError::Unwritable`], or a dataset that is none.
     pub fn keep_data(&self, dataset: &Dataset) -> Result<PathBuf, RecordError> {
-        let path = self.path.join(format!("{DATA}{}.bin", &dataset.hash()[..12]));
+        let name = PathBuf::from(format!("{DATA}{}.bin", &dataset.hash()[..12]));
+        let path = self.path.join(&name);
         let bytes = dataset.to_bytes(&path).map_err(|error| {
             let reason = std::io::Error::other(error.to_string());
             RecordError::Unwritable { path: path.clone(), reason }
         })?;
         replace_file(&path, &bytes).map_err(unwritable(&path))?;
-        Ok(path)
+        Ok(name)
     }
 
     /// Replaces the checkpoint.

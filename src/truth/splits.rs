@@ -53,7 +53,7 @@ impl Grids<'_> {
             self.axes.iter().map(points).collect()
         };
         let centres = along(&|axis| match self.ends {
-            true => [vec![axis.at(0.0)], axis.centres(self.points), vec![axis.at(1.0)]].concat(),
+            true => with_ends(axis, axis.centres(self.points), self.axes.len() == 1),
             false => axis.centres(self.points),
         });
         let nodes = along(&|axis| axis.nodes(intervals));
@@ -112,6 +112,21 @@ pub fn scattered_splits<E: Send>(
 const SLICES: usize = 64;
 /// The inputs whose ends are combined to corners: 1024 of them. By hand.
 const MOST_CORNERED: usize = 10;
+
+/// Adds an axis's ends to points along it; where rows are few, also points ever nearer to the ends,
+/// by halves: there is what roots and logarithms have between the last centre and the end.
+fn with_ends(axis: &Axis, centres: Vec<f32>, closely: bool) -> Vec<f32> {
+    let steps = (1..25).map(|step| 0.5_f64.powi(step));
+    let near: Vec<f64> = steps.filter(|u| closely && *u < 0.5 / centres.len() as f64).collect();
+    let low = near.iter().rev().map(|&u| axis.at(u));
+    let high = near.iter().map(|&u| axis.at(1.0 - u));
+    let ends = [axis.at(0.0), axis.at(1.0)];
+    let mut points: Vec<f32> =
+        ends[..1].iter().copied().chain(low).chain(centres).chain(high).chain([ends[1]]).collect();
+    // Near an end of 1 there are fewer numbers than halves.
+    points.dedup();
+    points
+}
 
 /// Evaluates a function at many points.
 struct Rows<'a> {

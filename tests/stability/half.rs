@@ -64,6 +64,7 @@ fn denormals_are_kept_and_flushed() {
         ranges: vec![[f64::NEG_INFINITY, f64::INFINITY]],
         claims: vec![],
         slack: 1e-5,
+        truth: None,
     };
     let examination = Examination::of(&guarded, &questions, 0.01);
     assert!(examination.half.not_finite.is_some());

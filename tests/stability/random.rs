@@ -59,7 +59,7 @@ fn an_examination_of_anything_is_text_and_json() {
         let names = Names::new(names, ["scale", "bias"]);
         let some = CLAIMS[..rng.random_range(0..=CLAIMS.len())].iter();
         let claims = some.map(|text| Claim::parse(text, &names).unwrap()).collect();
-        let questions = Questions { domain, ranges, claims, slack: 1e-5 };
+        let questions = Questions { domain, ranges, claims, slack: 1e-5, truth: None };
         let bound = [1e-6, 1e-2, 1e3][rng.random_range(0..3)];
         let examination = Examination::of(&program, &questions, bound);
         let text = examination::text(&examination, &names);
@@ -78,6 +78,7 @@ fn what_an_unfused_product_loses_is_said_of_the_formula_as_written() {
         ranges: vec![[f64::NEG_INFINITY, f64::INFINITY]],
         claims: vec![],
         slack: 1e-5,
+        truth: None,
     };
     let examination = Examination::of(&program, &questions, 1e-2);
     let losses = [examination.single, examination.half];
@@ -121,6 +122,7 @@ fn many_inputs_are_looked_at_in_bounded_work() {
         ranges: vec![[0.0, 1.0]],
         claims: vec![],
         slack: 1e-5,
+        truth: None,
     };
     let examination = Examination::of(&program, &questions, 1e-2);
     assert!(!examination.half_tried.exhaustive);
