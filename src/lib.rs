@@ -18,6 +18,7 @@
 //! | [`program`] | instructions, verified programs, outer forms, effective code, hashes, formula text |
 //! | [`simplify`] | algebra on programs |
 //! | [`dataset`] | tables of samples, where they come from, what is claimed of them; their files, the incumbents |
+//! | [`import`], [`export`] | other people's files made datasets; datasets made files for other programs |
 //! | [`grammar`], [`cost`] | what may be written, what it costs on a GPU; their `.ron` files |
 //! | [`eval`] | the data-parallel interpreter, losses, normal equations, scores; the same programs in f64, f16, intervals |
 //! | [`fit`] | error measures; derivatives by constants, Levenberg–Marquardt, the least maximum; constants with few digits; models of one's own |
@@ -89,7 +90,9 @@ pub mod program;
 pub mod simplify;
 
 pub mod dataset;
+pub mod export;
 pub mod grammar;
+pub mod import;
 
 pub mod cost;
 pub mod eval;

@@ -12,6 +12,8 @@ const LAYERS: [&str; 27] = [
     "program",
     "simplify",
     "dataset",
+    "import",
+    "export",
     "grammar",
     "cost",
     "eval",

@@ -4,7 +4,7 @@ use super::output::to_stderr;
 use crate::grammar::FileError;
 use crate::run::{Incompatible, RecordError, SubjectError};
 use crate::search::SetupError;
-use crate::{dataset, program, report, scene, targets};
+use crate::{dataset, import, program, report, scene, targets};
 use std::io::ErrorKind;
 use std::path::Path;
 use std::process::ExitCode;
@@ -100,6 +100,15 @@ impl From<dataset::Error> for Failure {
             dataset::Error::Io { path, action: "written", source } => {
                 Failure::unwritable(&path, source)
             }
+            error => Failure::new(Exit::Input, error),
+        }
+    }
+}
+
+impl From<import::Error> for Failure {
+    fn from(error: import::Error) -> Failure {
+        match error {
+            import::Error::Dataset(error) => error.into(),
             error => Failure::new(Exit::Input, error),
         }
     }

@@ -1,35 +1,90 @@
-//! `lgp import`: a dataset from a table in CSV.
+//! `lgp import`: a dataset from a table.
 
 use super::output::{check_writable, save};
 use super::pruning::Pruning;
 use super::{Common, Exit, Failure};
-use crate::dataset::{Column, InputColumns, import_csv};
+use crate::dataset::Column;
+use crate::import::is_array;
+use crate::import::table::{Decimal, InputColumns, Options, Separator, Understood, read};
 use serde::Serialize;
 use std::path::{Path, PathBuf};
 
-/// Make a dataset from a table in CSV
+/// Make a dataset from a table of numbers
 ///
-/// The first line names the columns; every other line holds one number for each. A column called
-/// `weight` weighs the rows. A column `y_se`, where `y` is an output, holds the standard errors of
-/// `y`: no formula wins by a smaller difference. One row in four is kept for
-/// validation.
+/// Separators, decimal commas, titles, names, units and comments are found, and what was understood
+/// is printed; options overrule it. Without --inputs and --outputs the last column is the output.
+/// A column called `weight` weighs the rows. A column `y_se`, where `y` is an output, holds the
+/// standard errors of `y`: no formula wins by a smaller difference. Columns of text are left out.
+/// One row in four is kept for validation.
 ///
 /// For example: lgp import mine.csv -o mine.bin --inputs 2
 #[derive(clap::Args)]
 pub struct Args {
-    /// The table: comma-separated numbers under a line of column names
+    /// The table, as .csv, .tsv, .txt or .dat; - reads standard input
     table: PathBuf,
     /// The dataset to write
     #[arg(short, long, value_name = "FILE")]
     output: PathBuf,
     /// The inputs: N for the first N columns, or names as in a,b; all other columns are outputs
+    /// [default: all but the outputs]
     #[arg(long, value_name = "N|NAMES", value_parser = input_columns)]
-    inputs: InputColumns,
+    inputs: Option<InputColumns>,
+    /// The outputs [default: all but --inputs, or the last column]
+    #[arg(long, value_name = "A,B", value_delimiter = ',')]
+    outputs: Option<Vec<String>>,
+    #[command(flatten)]
+    written: Written,
+    #[command(flatten)]
+    columns: Adjusted,
     /// A claim that formulas should meet, as in "sum: a + b <= 1"; can be given several times
     #[arg(long, value_name = "CLAIM")]
     claim: Vec<String>,
     #[command(flatten)]
     pruning: Pruning,
+}
+
+/// How the table is written, where that is not found.
+#[derive(clap::Args)]
+#[command(next_help_heading = "How the table is written (default: found)")]
+struct Written {
+    /// What stands between columns: a character, or comma, semicolon, tab, bar, blanks
+    #[arg(long, value_name = "CHARACTER", value_parser = Separator::parse)]
+    separator: Option<Separator>,
+    /// The sign before decimals, point or comma; the other one then groups digits
+    #[arg(long, value_name = "SIGN", value_parser = decimal)]
+    decimal: Option<Decimal>,
+    /// The number of lines before the table; the names are in the next one
+    #[arg(long, value_name = "N")]
+    skip: Option<usize>,
+    /// The most rows to read
+    #[arg(long, value_name = "N")]
+    #[arg(value_parser = clap::value_parser!(u64).range(1..))]
+    rows: Option<u64>,
+    /// No line holds names: columns are called x0, x1, …, y
+    #[arg(long)]
+    no_header: bool,
+}
+
+/// What is made of the columns.
+#[derive(clap::Args)]
+#[command(next_help_heading = "Columns")]
+struct Adjusted {
+    /// Names for all columns of the file, in its order
+    #[arg(long, value_name = "A,B", value_delimiter = ',')]
+    columns: Option<Vec<String>>,
+    /// Leave out these columns
+    #[arg(long, value_name = "A,B", value_delimiter = ',')]
+    drop: Vec<String>,
+    /// The column that weighs the rows [default: weight, if there is one]
+    #[arg(long, value_name = "COLUMN")]
+    weights: Option<String>,
+    /// Domains of inputs, as in x=0..1,a=1e-3..1 [default: the range of their values]
+    #[arg(long, value_name = "NAME=LOW..HIGH", value_delimiter = ',', value_parser = domain)]
+    #[arg(allow_hyphen_values = true)]
+    domain: Vec<(String, [f64; 2])>,
+    /// Multiply columns by powers of ten, as in flux=1e20; their names then say so
+    #[arg(long, value_name = "NAME=1eN", value_delimiter = ',', value_parser = scale)]
+    scale: Vec<(String, i32)>,
 }
 
 #[derive(Serialize)]
@@ -43,10 +98,17 @@ struct Imported {
     validation_rows: usize,
     standard_errors: bool,
     hash: String,
+    understood: Understood,
 }
 
 pub fn run(args: &Args, common: &Common) -> Result<(), Failure> {
-    let mut dataset = import_csv(&args.table, &args.inputs)?;
+    if is_array(&args.table) {
+        let path = args.table.display();
+        return Err(Failure::input(format!(
+            "{path}: not read as a table: it is a picture, a lookup table, a dataset or source code by its name; write its values as CSV, a row a sample with its inputs, or rename it to .txt if it is a table"
+        )));
+    }
+    let (mut dataset, understood) = read(&args.table, &args.options())?;
     let claimed = args.claim.iter().try_for_each(|claim| dataset.claim(claim));
     claimed.map_err(|error| Failure::new(Exit::Usage, error))?;
     if same_file(&args.table, &args.output) {
@@ -67,12 +129,33 @@ pub fn run(args: &Args, common: &Common) -> Result<(), Failure> {
         hash: dataset.hash(),
         dataset: dataset.name,
         path: args.output.clone(),
+        understood,
     };
     common.summary(&imported, &summary(&imported))
 }
 
+impl Args {
+    fn options(&self) -> Options {
+        let Args { written, columns, .. } = self;
+        Options {
+            separator: written.separator,
+            decimal: written.decimal,
+            skip: written.skip,
+            rows: written.rows.map(|rows| usize::try_from(rows).unwrap_or(usize::MAX)),
+            no_header: written.no_header,
+            columns: columns.columns.clone(),
+            drop: columns.drop.clone(),
+            inputs: self.inputs.clone(),
+            outputs: self.outputs.clone(),
+            weights: columns.weights.clone(),
+            domains: columns.domain.clone(),
+            scales: columns.scale.clone(),
+        }
+    }
+}
+
 fn summary(imported: &Imported) -> String {
-    format!(
+    let first = format!(
         "{}: {} → {}, {} search and {} validation rows{}",
         imported.path.display(),
         imported.inputs.join(", "),
@@ -80,7 +163,8 @@ fn summary(imported: &Imported) -> String {
         imported.search_rows,
         imported.validation_rows,
         if imported.standard_errors { ", with standard errors" } else { "" }
-    )
+    );
+    [vec![first], imported.understood.sentences()].concat().join("\n  ")
 }
 
 fn same_file(a: &Path, b: &Path) -> bool {
@@ -103,4 +187,32 @@ fn input_columns(text: &str) -> Result<InputColumns, String> {
         true => Err(format!("a name is empty; {explained}")),
         false => Ok(InputColumns::Names(names)),
     }
+}
+
+fn decimal(text: &str) -> Result<Decimal, String> {
+    match text {
+        "." | "point" => Ok(Decimal::Point),
+        "," | "comma" => Ok(Decimal::Comma),
+        _ => Err("write point or comma".into()),
+    }
+}
+
+fn domain(text: &str) -> Result<(String, [f64; 2]), String> {
+    let wanted = "write NAME=LOW..HIGH, as in x=0..1";
+    let (name, range) = text.split_once('=').ok_or(wanted)?;
+    let (low, high) = range.split_once("..").ok_or(wanted)?;
+    let end = |text: &str| text.trim().parse().ok().filter(|end: &f64| end.is_finite());
+    let [low, high] = [end(low).ok_or(wanted)?, end(high).ok_or(wanted)?];
+    match low <= high {
+        true => Ok((name.trim().to_owned(), [low, high])),
+        false => Err(format!("{text}: the lower end is above the upper one")),
+    }
+}
+
+fn scale(text: &str) -> Result<(String, i32), String> {
+    let parsed = text.split_once('=').and_then(|(name, factor)| {
+        let power: i32 = factor.trim().strip_prefix("1e")?.parse().ok()?;
+        (power.unsigned_abs() <= 400).then(|| (name.trim().to_owned(), power))
+    });
+    parsed.ok_or_else(|| "write NAME=1eN, as in flux=1e20 or mass=1e-30".into())
 }

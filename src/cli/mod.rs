@@ -7,6 +7,7 @@ mod columns;
 mod cost;
 mod emit;
 mod eval;
+mod export;
 mod failure;
 mod fit;
 mod front;
@@ -44,7 +45,7 @@ use std::process::ExitCode;
 const ABOUT: &str = "\
 Finds cheap closed-form shader formulas for a table of samples.
 
-A dataset holds samples of a function: import your own from CSV, or generate one
+A dataset holds samples of a function: import your own table, or generate one
 of the built-in ground truths. Formulas are judged on two axes: their error, and
 the GPU cycles they cost.";
 
@@ -101,6 +102,7 @@ enum Command {
     Specialize(specialize::Args),
     Generate(generate::Args),
     Import(import::Args),
+    Export(export::Args),
     Info(info::Args),
     List(list::Args),
 }
@@ -124,6 +126,7 @@ impl Command {
             Command::Specialize(args) => specialize::run(args, common),
             Command::Generate(args) => generate::run(args, common),
             Command::Import(args) => import::run(args, common),
+            Command::Export(args) => export::run(args, common),
             Command::Info(args) => info::run(args, common),
             Command::List(args) => list::run(args, common),
         }

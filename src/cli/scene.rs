@@ -2,8 +2,10 @@
 
 use super::output::check_writable;
 use super::{Common, Failure};
-use crate::dataset::{Error, Table};
+use crate::dataset;
 use crate::file::replace_file;
+use crate::import::Error;
+use crate::import::table::Table;
 use crate::scene::{Logged, Scene};
 use clap::Subcommand;
 use serde::Serialize;
@@ -23,13 +25,13 @@ enum From {
 
 /// Make a scene from logged pixels: which values of the inputs occur, and how often
 ///
-/// The log is a CSV table with a row for each pixel, its columns called like the dataset's inputs.
+/// The log is a table with a row for each pixel, its columns called like the dataset's inputs.
 /// A column called `weight` weighs the rows. Columns that never change become fixed inputs.
 ///
 /// For example: lgp scene from pixels.csv -o satin.ron
 #[derive(clap::Args)]
 struct FromArgs {
-    /// The table: comma-separated numbers under a line of column names
+    /// The table, written in any way that `lgp import` reads; - reads standard input
     log: PathBuf,
     /// The scene to write [default: the table's name with .ron]
     #[arg(short, long, value_name = "FILE")]
@@ -82,7 +84,8 @@ pub fn run(args: &Args, common: &Common) -> Result<(), Failure> {
     replace_file(&path, scene.to_ron().as_bytes())
         .map_err(|error| Failure::unwritable(&path, error))?;
     let pixels = table.columns[0].len();
-    let text = format!("{}: {pixels} pixels; {}", path.display(), scene.summary());
+    let first = format!("{}: {pixels} pixels; {}", path.display(), scene.summary());
+    let text = [vec![first], table.understood.sentences()].concat().join("\n  ");
     common.summary(&Made { scene, path, pixels }, &text)
 }
 
@@ -123,7 +126,7 @@ fn columns(args: &FromArgs, table: &Table) -> Result<Vec<usize>, Failure> {
         return Err(Failure::usage(format!("--inputs names `{name}` twice")));
     }
     match indices.is_empty() {
-        true => Err(Error::NoInputs { path: args.log.clone() }.into()),
+        true => Err(dataset::Error::NoInputs { path: args.log.clone() }.into()),
         false => Ok(indices),
     }
 }

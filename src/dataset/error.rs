@@ -77,36 +77,13 @@ pub enum Error {
     #[error("{path}: column `{column}` is asked for as an input and as an output; leave it out of one of them", path = path.display())]
     InputIsOutput { path: PathBuf, column: String },
 
-    #[error("{path}: not a text file in UTF-8 (line {line}); save it as CSV in UTF-8", path = path.display())]
-    NotText { path: PathBuf, line: usize },
-    #[error("{path}, line {line}: the first line holds only numbers; put a line with the names of the columns above it, for example `n_dot_v,roughness,scale`", path = path.display())]
-    NoHeader { path: PathBuf, line: usize },
-    #[error("{path}, line {line}: columns are separated by {separator}; separate them by commas (and use a point for decimals)", path = path.display())]
-    Separator { path: PathBuf, line: usize, separator: &'static str },
-    #[error("{path}: a header but no rows below it; add at least one row of numbers", path = path.display())]
-    HeaderOnly { path: PathBuf },
-    #[error("{path}, line {line}: a row of length {found} under a header of {expected} columns; make them equally long", path = path.display())]
-    RaggedRow { path: PathBuf, line: usize, found: usize, expected: usize },
-    #[error("{path}, line {line}, column `{column}`: {}; write a number such as 0.25, or remove the row", cell(text), path = path.display())]
-    Cell { path: PathBuf, line: usize, column: String, text: String },
-    #[error("{path}, line {line}, column `{column}`: `{}` is not finite; remove the row or write a finite number", printable(text), path = path.display())]
-    CellNotFinite { path: PathBuf, line: usize, column: String, text: String },
-    #[error("{path}, line {line}, column `{column}`: `{}` is too large for 32-bit floats (largest: 3.4e38); use a smaller unit", printable(text), path = path.display())]
-    CellOverflow { path: PathBuf, line: usize, column: String, text: String },
-    #[error("{path}, line {line}, column `{column}`: {value} is negative; weights must not be (if the column is not a weight, name it among the inputs)", path = path.display())]
-    NegativeWeight { path: PathBuf, line: usize, column: String, value: f32 },
-    #[error("{path}, line {line}, column `{column}`: {value} is negative; standard errors must not be (if the column holds none, name it among the inputs)", path = path.display())]
-    NegativeError { path: PathBuf, line: usize, column: String, value: f32 },
-    #[error("{path}: {asked} input columns were asked for, but there are only {columns} columns and at least one must be left as an output; ask for fewer", path = path.display())]
-    TooManyInputs { path: PathBuf, asked: usize, columns: usize },
-
     #[error("{path}, line {line}: unusable incumbents: {problem}", path = path.display())]
     Incumbents { path: PathBuf, line: usize, problem: String },
 }
 
 impl Error {
     /// Wraps the error of a file that could not be read.
-    pub(super) fn unread(path: &Path, source: std::io::Error) -> Error {
+    pub(crate) fn unread(path: &Path, source: std::io::Error) -> Error {
         match source.kind() {
             std::io::ErrorKind::NotFound => Error::Missing { path: path.into() },
             _ => Error::Io { path: path.into(), action: "read", source },
@@ -120,12 +97,4 @@ fn at_line(line: Option<usize>) -> String {
 
 fn did_you_mean(suggestion: &Option<String>) -> String {
     suggestion.as_ref().map(|name| format!(" (did you mean `{name}`?)")).unwrap_or_default()
-}
-
-fn cell(text: &str) -> String {
-    if text.is_empty() {
-        "the cell is empty".into()
-    } else {
-        format!("`{}` is not a number", printable(text))
-    }
 }

@@ -1,8 +1,8 @@
 //! Tables of samples that a search is fitted to and judged on.
 //!
 //! A [`Dataset`] names its input and output columns and holds two disjoint sets of rows, the search
-//! split and the validation split. It is made from a function ([`Dataset::sampled`]) or a CSV table
-//! ([`import_csv`]), and stored in a checksummed binary file (`.bin`, see [`Dataset::save`]).
+//! split and the validation split. It is made from a function ([`Dataset::sampled`]) or a table
+//! ([`crate::import`]), and stored in a checksummed binary file (`.bin`, see [`Dataset::save`]).
 //!
 //! ```
 //! use lgp::dataset::{Dataset, axis};
@@ -15,7 +15,6 @@
 //! ```
 
 mod claims;
-mod csv;
 mod error;
 mod format;
 mod incumbent;
@@ -28,13 +27,13 @@ mod unit;
 
 pub use claims::check_claims;
 pub(crate) use claims::claims_over;
-pub use csv::{InputColumns, Table, import_csv};
 pub use error::Error;
 pub use incumbent::{Incumbent, ParsedIncumbent, incumbents_file, incumbents_for, load_incumbents};
 pub use name::{LONGEST_NAME, NameFault, check_name, check_text};
 pub use origin::{Function, Origin};
 pub(crate) use sampled::combinations;
 pub use sampled::{Axis, Spacing, axis, grid_weights};
+pub(crate) use select::unknown_column;
 pub use unit::{joint_unit, output_units, unit};
 
 use crate::program::Names;
@@ -126,7 +125,7 @@ impl Dataset {
     }
 
     /// [`Dataset::validate`], for the file at `path`.
-    fn validate_as(&self, path: &Path) -> Result<(), Error> {
+    pub(crate) fn validate_as(&self, path: &Path) -> Result<(), Error> {
         check_name(&self.name).map_err(|fault| Error::Name {
             path: path.into(),
             name: self.name.clone(),

@@ -17,6 +17,9 @@ pub enum Origin {
     Import {
         /// The file's name, without its folder.
         file: String,
+        /// The columns whose names in the file are no identifiers, with those in the data.
+        #[serde(default, skip_serializing_if = "Vec::is_empty")]
+        renamed: Vec<(String, String)>,
     },
     /// A function.
     Formula {
@@ -120,7 +123,8 @@ impl Origin {
         }
     }
 
-    /// Returns the error that a generator measured, and the shares that pruning left.
+    /// Returns the error that a generator measured, the names that an import changed, and the shares
+    /// that pruning left.
     pub fn notes(&self) -> Vec<String> {
         match self {
             Origin::Target { error, .. } => vec![error.clone()],
@@ -129,7 +133,10 @@ impl Origin {
                 [of.notes(), vec![pruned]].concat()
             }
             Origin::Function { .. } => vec!["evaluated in double precision".to_owned()],
-            Origin::Import { .. } | Origin::Formula { .. } | Origin::View { .. } => Vec::new(),
+            Origin::Import { renamed, .. } => {
+                renamed.iter().map(|(written, name)| format!("`{written}` is {name}")).collect()
+            }
+            Origin::Formula { .. } | Origin::View { .. } => Vec::new(),
         }
     }
 
@@ -137,7 +144,7 @@ impl Origin {
     pub fn source(&self) -> String {
         match self {
             Origin::Target { recipe, .. } => recipe.clone(),
-            Origin::Import { file } => format!("{IMPORTED}{file}"),
+            Origin::Import { file, .. } => format!("{IMPORTED}{file}"),
             Origin::Formula { text } => text.clone(),
             Origin::Function { function, domain } => format!("{function} over {domain}"),
             Origin::View { of, scene } => format!("{of}{SCENE}{scene}"),
@@ -169,7 +176,7 @@ impl Origin {
             });
         }
         if let Some(file) = text.strip_prefix(IMPORTED) {
-            return Some(Origin::Import { file: file.to_owned() });
+            return Some(Origin::Import { file: file.to_owned(), renamed: Vec::new() });
         }
         let (recipe, error) = text.split_once(NOTE)?;
         let target = Origin::Target { recipe: recipe.to_owned(), error: error.to_owned() };

@@ -88,7 +88,7 @@ impl Dataset {
     }
 }
 
-pub(super) fn unknown_column<'a>(
+pub(crate) fn unknown_column<'a>(
     path: std::path::PathBuf,
     name: &str,
     available: impl Iterator<Item = &'a str>,
