@@ -76,7 +76,7 @@ fn unusable_tables_are_refused() {
     let cases: [(&str, &str, &[&str]); 7] = [
         ("", "2", &["the file is empty"]),
         ("a,b\n1,2\n1,two\n", "1", &["line 3", "column `b`", "`two` is not a number"]),
-        ("a,b\n1,NaN\n", "1", &["line 2", "column `b`", "not finite"]),
+        ("a,b\n1,2\n1,NaN\n", "1", &["line 3", "column `b`", "not finite"]),
         ("a,b\n1,2\n1,2,3\n", "1", &["line 3"]),
         ("a,b\n1,2\n", "2", &["ask for fewer"]),
         ("alpha,b\n1,2\n", "alhpa", &["no column is called `alhpa`", "did you mean `alpha`?"]),

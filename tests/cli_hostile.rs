@@ -204,7 +204,6 @@ fn what_is_said_of_hostile_text_is_escaped() {
     for words in [
         &["info", &file][..],
         &["info", hostile],
-        &["import", "hostile.csv", "--inputs", "1", "-o", "x.bin"],
         &["import", "cell.csv", "--inputs", "1", "-o", "x.bin"],
         &["import", &missing, "--inputs", "1", "-o", "x.bin"],
         &["search", "line.bin", "--grammar", "grammar.ron"],
@@ -219,6 +218,13 @@ fn what_is_said_of_hostile_text_is_escaped() {
     ] {
         let said = lgp(here, words);
         assert!(said.code == USAGE || said.code == INPUT, "{words:?}: {}", said.stderr);
+        assert_calm(&said);
+    }
+    // Names that are no identifiers are mapped, and said.
+    for words in [&["import", "hostile.csv", "-o", "x.bin"][..], &["info", "x.bin"]] {
+        let said = lgp(here, words);
+        assert_eq!(said.code, 0, "{}", said.stderr);
+        assert!(said.stdout.contains("_0_owned"), "{}", said.stdout);
         assert_calm(&said);
     }
     let text = format!("made by {hostile}\nand more");

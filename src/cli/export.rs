@@ -65,8 +65,11 @@ pub fn run(args: &Args, common: &Common) -> Result<(), Failure> {
     common.summary(&exported, &text)
 }
 
+/// Makes the bytes of a file.
+type Writer = fn(&Dataset, Rows) -> Vec<u8>;
+
 /// Returns what writes a file of this extension.
-fn writer(path: &Path) -> Result<fn(&Dataset, Rows) -> Vec<u8>, Failure> {
+fn writer(path: &Path) -> Result<Writer, Failure> {
     let extension = path.extension().unwrap_or_default().to_string_lossy().to_ascii_lowercase();
     match &*extension {
         "csv" => Ok(|dataset, rows| to_csv(dataset, rows).into_bytes()),

@@ -21,13 +21,15 @@ pub enum Error {
     NoNumbers { path: PathBuf, line: usize, text: String },
     #[error("{path}: a header but no rows below it; add at least one row of numbers", path = path.display())]
     HeaderOnly { path: PathBuf },
-    #[error("{path}, line {line}: a row of length {found} under a header of {expected} columns; make them equally long, or, if the line above is no header, skip it with --skip {}, or give the names with --columns and --skip", line - 1, path = path.display())]
-    HeaderLength { path: PathBuf, line: usize, found: usize, expected: usize },
+    #[error("{path}, line {line}: a row of length {found} under a header of {expected} columns; make them equally long, or, if the line above is no header or lacks names, give all with {remedy}", path = path.display())]
+    HeaderLength { path: PathBuf, line: usize, found: usize, expected: usize, remedy: String },
+    #[error("{path}, line {line}: a row of length {found} above a table of {expected} columns; make them equally long, or skip it with --skip {}", table - 1, path = path.display())]
+    NumbersAbove { path: PathBuf, line: usize, found: usize, expected: usize, table: usize },
     #[error("{path}, line {line}: a row of length {found} under a header of {expected} columns; make them equally long", path = path.display())]
     RaggedRow { path: PathBuf, line: usize, found: usize, expected: usize },
     #[error("{path}, line {line}: `{}` may be one number with a decimal comma under the one name above it, or two; write --decimal comma --separator blanks, or name both by --columns and --skip", start(text), path = path.display())]
     OneOrTwo { path: PathBuf, line: usize, text: String },
-    #[error("{path}, line {line}: `{}` stands amid the rows of numbers; take the {rows} rows above it with --rows {rows}, those below it with --skip, or remove the line", start(text), path = path.display())]
+    #[error("{path}, line {line}: `{}` stands amid the rows of numbers; take the {rows} rows above it with --rows {rows}, those below it with --skip {}, or remove the line", start(text), line - 1, path = path.display())]
     TextAmid { path: PathBuf, line: usize, text: String, rows: usize },
     #[error("{path}: --columns gives {given} names, but there are {found} columns ({as_found}); give one name for each", path = path.display())]
     ColumnNames { path: PathBuf, given: usize, found: usize, as_found: String },

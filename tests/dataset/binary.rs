@@ -72,7 +72,10 @@ fn saving_leaves_nothing_but_the_file_and_replaces_an_old_one() {
 #[test]
 fn hash_depends_on_all_that_makes_the_data_and_on_nothing_else() {
     let original = sample().hash();
-    let elsewhere = Dataset { origin: Origin::Import { file: "table.csv".into() }, ..sample() };
+    let elsewhere = Dataset {
+        origin: Origin::Import { file: "table.csv".into(), renamed: Vec::new() },
+        ..sample()
+    };
     assert_eq!(elsewhere.hash(), original);
     assert_eq!(Dataset { claims: vec![], ..sample() }.hash(), original);
     let mut value = sample();
@@ -91,7 +94,7 @@ fn hash_depends_on_all_that_makes_the_data_and_on_nothing_else() {
 fn a_file_of_version_1_is_read_and_known_by_its_hash() {
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/dataset/version_1.bin");
     let old = Dataset::load(&path).unwrap();
-    let of = Box::new(Origin::Import { file: "table.csv".into() });
+    let of = Box::new(Origin::Import { file: "table.csv".into(), renamed: Vec::new() });
     assert_eq!(old.origin, Origin::Pruned { of, share: 0.01, kept: 8, rows: 13 });
     assert_eq!(old.origin.to_string(), "imported from table.csv // pruned at 0.01: 8 of 13 rows");
     assert_eq!((old.search.rows(), old.search.standard_errors.len()), (8, 1));
@@ -101,6 +104,16 @@ fn a_file_of_version_1_is_read_and_known_by_its_hash() {
     let path = folder.path().join("new.bin");
     old.save(&path).unwrap();
     assert_eq!(Dataset::load(&path).unwrap(), old);
+}
+
+#[test]
+fn an_import_keeps_what_columns_were_called() {
+    let renamed = vec![("CO(GT)".to_owned(), "co_gt".to_owned())];
+    let origin = Origin::Import { file: "table.csv".into(), renamed };
+    assert_eq!(origin.to_string(), "imported from table.csv // `CO(GT)` is co_gt");
+    let data = Dataset { origin, ..sample() };
+    let bytes = data.to_bytes(Path::new("d.bin")).unwrap();
+    assert_eq!(Dataset::parse(Path::new("d.bin"), &bytes).unwrap(), data);
 }
 
 #[test]

@@ -1,9 +1,8 @@
-//! Datasets: the `.bin` file, CSV import, selection of columns, and every way
+//! Datasets: the `.bin` file, selection of columns, and every way
 //! in which they refuse.
 
 mod binary;
 mod content;
-mod csv;
 
 use lgp::dataset::{Column, Dataset, Origin, Split};
 

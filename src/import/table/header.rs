@@ -4,7 +4,7 @@ use super::Options;
 use super::cells::{Content, Decimal};
 use super::names::is_identifier;
 use super::rows::{Cell, Separator, split_plainly};
-use super::sample::{Kind, Reading, Sample};
+use super::sample::{Kind, Reading, Sample, is_number};
 use super::units;
 use crate::import::Error;
 use std::path::Path;
@@ -60,10 +60,38 @@ pub(super) fn header(
         None if options.no_header => header.skipped = place.units.unwrap_or(place.first),
         None => find_odd_names(path, text, sample, reading, options, &mut header, place.first)?,
     }
+    if options.skip.is_none() {
+        check_above(path, sample, reading, &header, place.first)?;
+    }
     if header.skipped > 0 {
         header.skipped_lines = Some([line(0), line(header.skipped - 1)]);
     }
     Ok(header)
+}
+
+/// Refuses rows of numbers that would count as a title: those of several numbers, and those below
+/// names.
+fn check_above(
+    path: &Path,
+    sample: &Sample,
+    reading: &Reading,
+    header: &Header,
+    first: usize,
+) -> Result<(), Error> {
+    let mut below_names = false;
+    for row in 0..header.skipped {
+        let numbers = reading.contents[row].iter().filter(|content| is_number(content)).count();
+        let other =
+            reading.contents[row].iter().filter(|content| **content == Content::Text).count();
+        if numbers > 0 && other == 0 && (numbers > 1 || below_names && header.names.is_empty()) {
+            let (line, found) = (sample.rows[row].line, reading.contents[row].len());
+            let (expected, table) = (reading.kinds.len(), sample.rows[first].line);
+            let table = header.names_line.unwrap_or(table);
+            return Err(Error::NumbersAbove { path: path.into(), line, found, expected, table });
+        }
+        below_names |= reading.is_of_text(row) && reading.fits(row);
+    }
+    Ok(())
 }
 
 fn cells_of(sample: &Sample, row: usize) -> Vec<String> {
@@ -185,7 +213,11 @@ fn check_length(
     let expected = names.iter().rposition(|cell| !cell.text.is_empty()).map_or(0, |last| last + 1);
     let in_words = sample.separator == Separator::Blanks && expected > found;
     if expected > 1 && !in_words {
-        return Err(Error::HeaderLength { path: path.into(), line, found, expected });
+        let missing = (expected..found).map(|column| format!("column_{}", column + 1 - expected));
+        let known = names.iter().take(expected.min(found)).map(|cell| cell.text.to_string());
+        let names: Vec<String> = missing.chain(known).collect();
+        let remedy = format!("--skip {} --columns \"{}\"", line - 1, names.join(","));
+        return Err(Error::HeaderLength { path: path.into(), line, found, expected, remedy });
     }
     let is_one = expected == 1 && is_identifier(&names[0].text);
     let by_commas = sample.separator == Separator::Character(',')

@@ -1,10 +1,11 @@
 //! How a table is written: what separates its columns, and where its rows begin.
 
 use super::Options;
-use super::cells::{Decimal, Notation};
+use super::cells::{Content, Decimal, Notation};
 use super::header::{Header, header};
+use super::names::is_identifier;
 use super::rows::Separator;
-use super::sample::{Kind, Reading, Sample};
+use super::sample::{Kind, Reading, Sample, is_number};
 use crate::import::Error;
 use std::path::Path;
 
@@ -17,6 +18,15 @@ pub(super) struct Layout {
     pub columns: Vec<Holds>,
     /// Another separator that explains as many rows by other columns.
     pub other: Option<Separator>,
+    /// A cell whose comma may group digits, if nothing shows that commas stand before decimals.
+    pub unclear: Option<Unclear>,
+}
+
+/// A cell that two readings differ about.
+pub(super) struct Unclear {
+    pub column: usize,
+    pub line: usize,
+    pub text: String,
 }
 
 /// What a column holds.
@@ -71,7 +81,7 @@ pub(super) fn find(path: &Path, text: &str, options: &Options) -> Result<Layout,
         }
     }
     let Some((sample, reading)) = best else { return Err(empty(path)) };
-    check_rows(path, sample, &reading)?;
+    check_rows(path, &samples, sample, &reading)?;
     let header = header(path, text, sample, &reading, options)?;
     let columns = reading.kinds.iter().enumerate().map(|(column, kind)| match *kind {
         Kind::Numbers => Holds::Numbers,
@@ -81,7 +91,12 @@ pub(super) fn find(path: &Path, text: &str, options: &Options) -> Result<Layout,
             Holds::Text { line: row.line, text: cell.text.to_string(), is_quoted: cell.quoted }
         }
     });
+    let unclear = match options.decimal {
+        None => unclear_comma(sample, &reading),
+        Some(_) => None,
+    };
     Ok(Layout {
+        unclear,
         separator: sample.separator,
         notation: reading.notation,
         columns: columns.collect(),
@@ -90,21 +105,54 @@ pub(super) fn find(path: &Path, text: &str, options: &Options) -> Result<Layout,
     })
 }
 
+/// Returns the first cell with a comma if those of all cells may group digits, as in `1,234`.
+fn unclear_comma(sample: &Sample, reading: &Reading) -> Option<Unclear> {
+    if reading.notation.decimal == Decimal::Point {
+        return None;
+    }
+    let grouping = Notation { decimal: Decimal::Point, groups: false };
+    let mut first = None;
+    for (row, contents) in sample.rows.iter().zip(&reading.contents) {
+        for (column, (cell, content)) in row.cells.iter().zip(contents).enumerate() {
+            if !is_number(content) || !cell.text.contains(',') {
+                continue;
+            }
+            if grouping.content(&cell.text) != Content::Ambiguous {
+                return None;
+            }
+            let text = || cell.text.to_string();
+            first = first.or_else(|| Some(Unclear { column, line: row.line, text: text() }));
+        }
+    }
+    first
+}
+
 fn empty(path: &Path) -> Error {
     crate::dataset::Error::Empty { path: path.into() }.into()
 }
 
 /// Checks that there is a row of numbers.
-fn check_rows(path: &Path, sample: &Sample, reading: &Reading) -> Result<(), Error> {
+fn check_rows(
+    path: &Path,
+    samples: &[Sample],
+    sample: &Sample,
+    reading: &Reading,
+) -> Result<(), Error> {
     if reading.matches.contains(&true) {
         return Ok(());
     }
-    if let Some((line, fault)) = sample.fault {
+    if let Some((line, fault)) = samples.iter().find_map(|sample| sample.fault) {
         return Err(Error::Row { path: path.into(), line, fault });
+    }
+    let is_header = |sample: &Sample| match &sample.rows[..] {
+        [only] => only.cells.iter().all(|cell| is_identifier(&cell.text)),
+        _ => false,
+    };
+    if samples.iter().any(is_header) {
+        return Err(Error::HeaderOnly { path: path.into() });
     }
     match &sample.rows[..] {
         [] => Err(empty(path)),
-        [_] => Err(Error::HeaderOnly { path: path.into() }),
         [first, ..] => {
             let text = first.cells.iter().map(|cell| &*cell.text).collect::<Vec<_>>().join(" ");
             Err(Error::NoNumbers { path: path.into(), line: first.line, text })

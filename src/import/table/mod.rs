@@ -29,10 +29,12 @@ pub use understood::{Role, Understood, UnderstoodColumn};
 
 use super::{Error, STANDARD_INPUT, read_source};
 use crate::dataset::{self, Dataset};
-use layout::{Holds, Layout};
+use cells::Content;
+use layout::{Holds, Layout, Unclear};
 use names::{Heading, headings, numbered};
 use read::{Source, Wanted};
 use roles::Columns;
+use sample::is_number;
 use std::collections::HashSet;
 use std::path::Path;
 
@@ -169,6 +171,12 @@ impl<'a> Open<'a> {
 
     /// Refuses names that occur twice, and columns whose text may be numbers.
     fn check_columns(&self) -> Result<(), Error> {
+        if let Some(Unclear { column, line, text }) = &self.layout.unclear
+            && self.columns().candidates().any(|place| place == *column)
+        {
+            let (path, column) = (self.path.into(), self.headings[*column].name.clone());
+            return Err(Error::AmbiguousCell { path, line: *line, column, text: text.clone() });
+        }
         let mut seen = HashSet::new();
         for place in self.columns().candidates() {
             let name = &self.headings[place].name;
@@ -185,7 +193,7 @@ impl<'a> Open<'a> {
             if *dropped {
                 continue;
             }
-            if self.layout.notation.content(&text) == cells::Content::Ambiguous {
+            if self.may_be_number(&text) {
                 return Err(Error::AmbiguousCell { path, line, column, text });
             }
             if !is_quoted && self.options.separator.is_none() && cells::is_several_numbers(&text) {
@@ -193,6 +201,18 @@ impl<'a> Open<'a> {
             }
         }
         Ok(())
+    }
+
+    /// Returns true for a text that is a number with the other decimal sign, or grouped digits.
+    fn may_be_number(&self, text: &str) -> bool {
+        let notation = self.layout.notation;
+        let other = match (self.options.decimal, notation.decimal) {
+            (Some(given), _) => given,
+            (None, Decimal::Point) => Decimal::Comma,
+            (None, Decimal::Comma) => Decimal::Point,
+        };
+        let by_other = cells::Notation { decimal: other, groups: false };
+        notation.content(text) == Content::Ambiguous || is_number(&by_other.content(text))
     }
 
     fn understood(&self, read: &read::Read) -> Understood {

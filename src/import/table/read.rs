@@ -25,7 +25,7 @@ pub(super) struct Read {
     pub vanished: Vec<usize>,
     /// The first cell whose digits are grouped.
     pub grouped: Option<(usize, String, f64)>,
-    /// Rows of separators alone.
+    /// Rows of separators or rules alone.
     pub empty: usize,
     pub comments: usize,
     /// Rows of text below the numbers.

@@ -114,7 +114,7 @@ pub(super) struct Rows<'a> {
     line: usize,
     separator: Separator,
     has_quotes: bool,
-    /// Rows of separators alone.
+    /// Rows of separators or rules alone.
     pub empty: usize,
     /// Lines of comments.
     pub comments: usize,
@@ -153,6 +153,11 @@ impl<'a> Rows<'a> {
             }
             let begun = whole.trim_start();
             if begun.is_empty() {
+                self.go_to(end);
+                continue;
+            }
+            if is_rule(begun) {
+                self.empty += 1;
                 self.go_to(end);
                 continue;
             }
@@ -201,6 +206,13 @@ impl<'a> Rows<'a> {
         self.line += 1;
         self.at = (end + 1).min(self.text.len() + 1);
     }
+}
+
+/// Returns true for a line drawn below a header: `-----`, `|---|:---|`, `====  ====`.
+fn is_rule(line: &str) -> bool {
+    line.starts_with(['-', '=', '+', '|', ':', '_'])
+        && ["---", "===", "___"].iter().any(|part| line.contains(part))
+        && line.trim_end().bytes().all(|byte| b"-=_+|: \t".contains(&byte))
 }
 
 /// The text of a line that is a comment, without its mark.

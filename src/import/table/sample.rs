@@ -140,33 +140,40 @@ pub(super) fn is_number(content: &Content) -> bool {
     matches!(content, Content::Number(_) | Content::Grouped(_))
 }
 
-/// The usual number of cells of rows with a number.
+/// The usual number of cells of rows with a number, or, of several, that of most other rows.
 fn width(contents: &[Vec<Content>]) -> usize {
     let mut counts = BTreeMap::new();
-    for row in contents.iter().filter(|row| row.iter().any(is_number)) {
-        *counts.entry(row.len()).or_insert(0) += 1;
+    for row in contents {
+        let (numbers, all) = counts.entry(row.len()).or_insert((0, 0));
+        *numbers += usize::from(row.iter().any(is_number));
+        *all += 1;
     }
     let usual = counts.into_iter().max_by_key(|&(width, count)| (count, width));
     usual.map_or(0, |(width, _)| width)
 }
 
-/// What most cells of each column hold, in the second half of the rows with a number: above them
-/// are headers.
+/// What most cells of each column hold, in the rows with a number or in the second half of them:
+/// the first may belong to a header.
 fn kinds(contents: &[Vec<Content>], width: usize) -> Vec<Kind> {
-    let usual = |row: &&(usize, &Vec<Content>)| row.1.len() >= width && row.1.iter().any(is_number);
-    let numbered: Vec<(usize, &Vec<Content>)> = contents.iter().enumerate().collect();
-    let numbered: Vec<&(usize, &Vec<Content>)> = numbered.iter().filter(usual).collect();
-    let later = &numbered[numbered.len() / 2..];
+    let usual = |row: &usize| contents[*row].len() >= width && contents[*row].iter().any(is_number);
+    let all: Vec<usize> = (0..contents.len()).filter(usual).collect();
+    let later = &all[all.len() / 2..];
     let kind = |column: usize| {
-        let cells = || later.iter().map(|(row, contents)| (*row, contents[column]));
-        let count = |held: fn(&Content) -> bool| cells().filter(|(_, c)| held(c)).count();
-        let numbers = count(is_number);
-        let missing = count(|c| *c == Content::Missing);
-        let other = cells().filter(|(_, c)| matches!(c, Content::Text | Content::Ambiguous));
-        let others = other.clone().count();
-        match other.clone().next().or(cells().find(|(_, c)| *c == Content::Missing)) {
-            _ if numbers > 0 && numbers + missing >= others => Kind::Numbers,
-            Some((row, _)) => Kind::Text { row },
+        let count = |rows: &[usize], held: fn(&Content) -> bool| {
+            rows.iter().filter(|row| held(&contents[**row][column])).count()
+        };
+        let is_text = |c: &Content| matches!(c, Content::Text | Content::Ambiguous);
+        let is_missing = |c: &Content| *c == Content::Missing;
+        let mostly_numbers = |rows: &[usize]| {
+            let numbers = count(rows, is_number);
+            numbers > 0 && numbers + count(rows, is_missing) >= count(rows, is_text)
+        };
+        let first = |held: fn(&Content) -> bool| {
+            later.iter().copied().find(|row| held(&contents[*row][column]))
+        };
+        match first(is_text).or(first(is_missing)) {
+            _ if mostly_numbers(later) || mostly_numbers(&all) => Kind::Numbers,
+            Some(row) => Kind::Text { row },
             None => Kind::Empty,
         }
     };

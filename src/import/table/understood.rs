@@ -29,7 +29,7 @@ pub struct Understood {
     pub rows_below: usize,
     /// Lines of comments.
     pub comments: usize,
-    /// Rows of separators alone.
+    /// Rows of separators or rules alone.
     pub empty_rows: usize,
     /// All columns of the file that are not empty, in its order.
     pub columns: Vec<UnderstoodColumn>,
@@ -172,7 +172,7 @@ impl UnderstoodColumn {
 fn counted(count: usize, what: &str) -> String {
     match (count, what.split_once(' ')) {
         (1, _) => format!("1 {what}"),
-        (_, Some((first, rest))) if first == "row" => format!("{count} rows {rest}"),
+        (_, Some(("row", rest))) => format!("{count} rows {rest}"),
         _ => format!("{count} {what}s"),
     }
 }

@@ -1,7 +1,9 @@
-//! CSV import.
+//! Plain tables: roles of columns, splits, and what is refused.
 
 use crate::{names, strings};
-use lgp::dataset::{Dataset, Error, InputColumns, import_csv};
+use lgp::dataset::{self, Dataset};
+use lgp::import::Error;
+use lgp::import::table::{InputColumns, Options, read};
 use std::path::Path;
 
 fn import_text(text: &str, inputs: &InputColumns) -> Result<Dataset, Error> {
@@ -12,7 +14,7 @@ fn import_bytes(bytes: &[u8], inputs: &InputColumns) -> Result<Dataset, Error> {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("table.csv");
     std::fs::write(&path, bytes).unwrap();
-    import_csv(&path, inputs)
+    Ok(read(&path, &Options::of_inputs(inputs.clone()))?.0)
 }
 
 fn named(names: &[&str]) -> InputColumns {
@@ -94,28 +96,30 @@ fn import_splits_disjointly_and_keeps_the_extremes_for_the_search() {
 #[test]
 fn import_refuses_with_line_and_column() {
     let one = InputColumns::Count(1);
-    let cases: [(&str, &str); 21] = [
+    let cases: [(&str, &str); 23] = [
         ("", "is empty"),
         (" \n\n", "is empty"),
         ("x,y\n", "no rows"),
-        ("1,2\n3,4\n", "line 1: the first line holds only numbers"),
         ("x,x\n1,2\n", "`x` occurs more than once"),
-        ("n.v,y\n1,2\n", "line 1: column name `n.v` is not an identifier"),
-        ("n.v,y\n1,2\n", "to `n_v`"),
-        ("x,\n1,2\n", "column name `` is not an identifier"),
-        ("x;y\n1;2\n", "line 1: columns are separated by semicolons"),
-        ("x\ty\n1\t2\n", "separated by tabs"),
         ("x,y\n1,2\n\n1,red\n", "line 4, column `y`: `red` is not a number"),
-        ("x,y\n1,\n", "line 2, column `y`: the cell is empty"),
+        ("x,y\n1,2\n1,\n", "line 3, column `y`: the cell is empty"),
+        ("x,y\n1,\n", "`y`, which is empty"),
+        ("x,y\n1,red\n", "`y`, which holds text (line 2: `red`)"),
         ("x,y\n1,2\nnan,2\n", "line 3, column `x`: `nan` is not finite"),
-        ("x,y\n1,-inf\n", "line 2, column `y`: `-inf` is not finite"),
+        ("x,y\n1,2\n1,-inf\n", "line 3, column `y`: `-inf` is not finite"),
         ("x,y\n1,1e39\n", "line 2, column `y`: `1e39` is too large"),
         ("x,y\n1,1e999\n", "line 2, column `y`: `1e999` is too large"),
         ("x,y\n1,2,3\n", "line 2: a row of length 3 under a header of 2"),
         ("x,y\n1,2\n1\n", "line 3: a row of length 1 under"),
         ("x\n1\n", "at least one must be left as an output"),
         ("x,weight\n1,1\n", "at least one must be left as an output"),
-        ("x,y\n0x10,2\n", "line 2, column `x`: `0x10` is not a number"),
+        ("x,y\n1,2\n0x10,2\n", "line 3, column `x`: `0x10` is not a number"),
+        ("x,y\n1,2\na,b\n3,4\n", "line 3: `a b` stands amid the rows of numbers"),
+        ("x,y\n1,2\na,b\n3,4\n", "--rows 1, those below it with --skip 2"),
+        ("x,y\n1,\"2\n3,4\n", "line 2: a quote is opened and never closed"),
+        ("x,y\n1,1,234.5\n", "line 2"),
+        ("<html>\n<body>\n", "no row of numbers below line 1 (`<html>`)"),
+        ("x,y\n1,2\n3,4 5\n", "line 3, column `y`: `4 5` is not a number"),
     ];
     for (text, expected) in cases {
         let error = import_text(text, &one).unwrap_err().to_string();
@@ -130,16 +134,17 @@ fn import_refuses_unusable_inputs() {
     let error = import_text(text, &named(&["rougness"])).unwrap_err();
     assert!(error.to_string().contains("did you mean `roughness`?"), "{error}");
     let all = import_text(text, &named(&["n_dot_v", "roughness", "scale"]));
-    assert!(matches!(all, Err(Error::NoOutputs { .. })));
+    assert!(matches!(all, Err(Error::Dataset(dataset::Error::NoOutputs { .. }))));
     let twice = import_text(text, &named(&["n_dot_v", "n_dot_v"]));
-    assert!(matches!(twice, Err(Error::DuplicateColumn { .. })));
+    assert!(matches!(twice, Err(Error::Dataset(dataset::Error::DuplicateColumn { .. }))));
     for none in [named(&[]), InputColumns::Count(0)] {
-        assert!(matches!(import_text(text, &none), Err(Error::NoInputs { .. })));
+        let none = import_text(text, &none);
+        assert!(matches!(none, Err(Error::Dataset(dataset::Error::NoInputs { .. }))));
     }
     let error = import_text(text, &InputColumns::Count(3));
     assert!(matches!(error, Err(Error::TooManyInputs { asked: 3, columns: 3, .. })));
-    let missing = import_csv(Path::new("no_such_table.csv"), &InputColumns::Count(1));
-    assert!(matches!(missing, Err(Error::Missing { .. })));
-    let latin1 = import_bytes(b"x,y\n1,2\n1,\xb5\n", &InputColumns::Count(1));
-    assert!(matches!(latin1, Err(Error::NotText { line: 3, .. })));
+    let missing = read(Path::new("no_such_table.csv"), &Options::default());
+    assert!(matches!(missing, Err(Error::Dataset(dataset::Error::Missing { .. }))));
+    let binary = import_bytes(b"x,y\n1,2\n1,\0\n", &InputColumns::Count(1));
+    assert!(matches!(binary, Err(Error::NotText { line: 3, .. })));
 }
