@@ -52,6 +52,7 @@ fn mutated(bytes: &[u8], numbers: &mut Numbers) -> Vec<u8> {
 fn text_of(bytes: &[u8]) -> Option<String> {
     let text = std::str::from_utf8(bytes).ok()?;
     let text = text.strip_prefix('\u{feff}').unwrap_or(text);
+    let text = text.strip_suffix('\u{1a}').unwrap_or(text);
     let text = text.replace("\r\n", "\n").replace('\r', "\n");
     text.lines().all(|line| line.matches('"').count() % 2 == 0).then_some(text)
 }
@@ -69,13 +70,15 @@ fn is_comment(line: &str) -> bool {
 fn cells(line: &str, separator: Separator) -> Vec<String> {
     let mut cells = vec![String::new()];
     let mut inside = false;
-    for c in line.chars() {
+    let mut left = line.chars().peekable();
+    while let Some(c) = left.next() {
         let last = cells.len() - 1;
         let parts = match separator {
             Separator::Character(separator) => c == separator,
             Separator::Blanks => c == ' ' || c == '\t',
         };
         match c {
+            '"' if inside && left.next_if_eq(&'"').is_some() => cells[last].push('"'),
             '"' if inside || cells[last].trim().is_empty() => inside = !inside,
             _ if parts && !inside => cells.push(String::new()),
             c => cells[last].push(c),
@@ -117,28 +120,38 @@ fn check_values(text: &str, data: &Dataset, understood: &Understood) {
     let lines: Vec<&str> = text.lines().collect();
     let names = |line: usize| cells(lines[line - 1].trim_start_matches('#'), understood.separator);
     let header = understood.names_line.map(names);
+    let rows = lines[understood.first_line - 1..]
+        .iter()
+        .filter(|line| !line.trim().is_empty() && !is_comment(line) && !is_rule(line))
+        .map(|line| cells(line, understood.separator))
+        .filter(|cells| cells.iter().any(|cell| !cell.is_empty()))
+        .take(understood.rows);
+    let rows: Vec<Vec<String>> = rows.collect();
+    let is_full = |place: &usize| {
+        rows.iter().any(|cells| cells.get(*place).is_some_and(|cell| !cell.is_empty()))
+    };
+    let widest = rows.iter().map(Vec::len).max().unwrap_or(0);
+    let full: Vec<usize> = (0..widest).filter(is_full).collect();
     let mut places = Vec::new();
     for column in data.inputs.iter().chain(&data.outputs) {
         let known = understood.columns.iter().position(|known| known.name == column.name);
         let known = known.unwrap_or_else(|| panic!("{} is not said\n{text}", column.name));
         let written = &understood.columns[known].written;
         let place = match &header {
-            Some(header) if !written.is_empty() => {
-                let Some(place) = header.iter().position(|name| name == written) else { return };
+            Some(header) if !written.is_empty() && header.len() <= widest => {
+                let mut places = (0..header.len()).filter(|&place| header[place] == *written);
+                // Of names that occur twice this test cannot tell which is which.
+                let (Some(place), None) = (places.next(), places.next()) else { return };
                 place
             }
+            // Names without a name, or separated by something else than the rows.
             Some(_) => return,
-            None => known,
+            None => full[known],
         };
         places.push(place);
     }
-    let usable = lines[understood.first_line - 1..]
+    let mut there: Vec<Vec<u32>> = rows
         .iter()
-        .filter(|line| !line.trim().is_empty() && !is_comment(line) && !is_rule(line))
-        .map(|line| cells(line, understood.separator))
-        .filter(|cells| cells.iter().any(|cell| !cell.is_empty()));
-    let mut there: Vec<Vec<u32>> = usable
-        .take(understood.rows)
         .map(|cells| {
             let value = |place: &usize| {
                 let cell = cells.get(*place).map_or("", String::as_str);

@@ -3,8 +3,10 @@
 use crate::{names, read_table, sorted, table};
 use lgp::import::table::{InputColumns, Options, Role, read};
 
-/// Inputs, outputs, rows, and parts of what is said, of each table that is read without options.
-const READ: [(&str, &[&str], &[&str], usize, &[&str]); 32] = [
+/// A table that is read without options: its inputs, outputs, rows, and parts of what is said.
+type AsRead<'a> = (&'a str, &'a [&'a str], &'a [&'a str], usize, &'a [&'a str]);
+
+const READ: [AsRead; 32] = [
     (
         "semicolon_decimal_comma.csv",
         &["Nr", "Einfallswinkel", "Rauheit"],

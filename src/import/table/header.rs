@@ -3,8 +3,9 @@
 use super::Options;
 use super::cells::{Content, Decimal};
 use super::names::is_identifier;
-use super::rows::{Cell, Separator, split_plainly};
+use super::rows::{Cell, split_plainly};
 use super::sample::{Kind, Reading, Sample, is_number};
+use super::separator::Separator;
 use super::units;
 use crate::import::Error;
 use std::path::Path;

@@ -4,8 +4,8 @@ use super::Options;
 use super::cells::{Content, Decimal, Notation};
 use super::header::{Header, header};
 use super::names::is_identifier;
-use super::rows::Separator;
 use super::sample::{Kind, Reading, Sample, is_number};
+use super::separator::Separator;
 use crate::import::Error;
 use std::path::Path;
 

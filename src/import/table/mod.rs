@@ -17,13 +17,15 @@ mod read;
 mod roles;
 mod rows;
 mod sample;
+mod separator;
 mod text;
 mod understood;
 mod units;
 
 pub use cells::Decimal;
 pub use options::{InputColumns, Options};
-pub use rows::{Fault, LONGEST_ROW, MOST_CELLS, Separator};
+pub use rows::{Fault, LONGEST_ROW, MOST_CELLS};
+pub use separator::Separator;
 pub use text::Encoding;
 pub use understood::{Role, Understood, UnderstoodColumn};
 

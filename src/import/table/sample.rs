@@ -1,7 +1,8 @@
 //! The beginning of a table under one reading: a separator and a decimal sign.
 
 use super::cells::{Content, Decimal, Notation};
-use super::rows::{Cell, Fault, Rows, Separator};
+use super::rows::{Cell, Fault, Rows};
+use super::separator::Separator;
 use std::collections::BTreeMap;
 
 /// The most rows and cells that a reading is chosen by. By hand: enough for any header, and quick.

@@ -1,7 +1,7 @@
 //! What was understood of a table, in words and as data.
 
 use super::cells::Decimal;
-use super::rows::Separator;
+use super::separator::Separator;
 use super::text::Encoding;
 use crate::printable::printable;
 use serde::Serialize;
