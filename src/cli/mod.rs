@@ -1,5 +1,6 @@
 //! The command line: one file a subcommand, each with its `Args` and a `run`.
 
+mod against;
 mod analyze;
 mod argument;
 mod check;

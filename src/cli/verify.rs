@@ -1,18 +1,15 @@
 //! `lgp verify`: a shader file against the data and its own comment.
 
 use super::truth::Sampled;
-use super::{Common, Failure};
+use super::{Common, Failure, against};
 use crate::dataset::Dataset;
 use crate::emit::{Language, MAX_SNIPPET, ReadBack, Stated, StatedError, read_back};
 use crate::eval::{Evaluator, OutputError, Samples, Score, Tape};
 use crate::program::{Names, Program};
 use crate::run::Subject;
-use crate::shader::Shader;
 use crate::suggest::did_you_mean;
-use crate::truth::Truth;
 use crate::wording::error_text;
 use serde::Serialize;
-use std::cell::RefCell;
 use std::collections::BTreeMap;
 use std::fmt::Display;
 use std::io::Read;
@@ -36,7 +33,7 @@ use std::path::{Path, PathBuf};
 #[derive(clap::Args)]
 pub struct Args {
     #[arg(help = format!("A {} file with one function", extensions()))]
-    snippet: PathBuf,
+    pub(super) snippet: PathBuf,
     /// The dataset: a file from `lgp generate` or `lgp import`; not needed with --against or
     /// --formula
     #[arg(required_unless_present_any = ["against", "formula"])]
@@ -44,12 +41,12 @@ pub struct Args {
     /// In place of a dataset: a shader file, whose function is evaluated in double precision over
     /// the --domain. Then both files may hold any function: loops, branches, vectors
     #[arg(long, value_name = "FILE", conflicts_with_all = ["dataset", "formula"])]
-    against: Option<PathBuf>,
+    pub(super) against: Option<PathBuf>,
     /// The function of the --against file that is meant [default: as --entry]
     #[arg(long, value_name = "NAME", requires = "against")]
-    against_entry: Option<String>,
+    pub(super) against_entry: Option<String>,
     #[command(flatten)]
-    sampled: Sampled,
+    pub(super) sampled: Sampled,
     /// Evaluate on what a scene needs of the dataset: a scene beside it, or a .ron file
     #[arg(long, value_name = "S")]
     scene: Option<String>,
@@ -58,7 +55,7 @@ pub struct Args {
     max_error: f64,
     /// The columns that the function returns, in order [default: the names in the function]
     #[arg(long, value_name = "A,B", value_delimiter = ',')]
-    outputs: Option<Vec<String>>,
+    pub(super) outputs: Option<Vec<String>>,
 }
 
 #[derive(Serialize)]
@@ -89,78 +86,8 @@ pub fn run(args: &Args, common: &Common) -> Result<(), Failure> {
             args.sampled.refuse_functions()?;
             snippet_on(args, dataset, common)
         }
-        None => function_against(args, common),
+        None => against::run(args, common),
     }
-}
-
-/// Compares a function with another, in single precision against double.
-fn function_against(args: &Args, common: &Common) -> Result<(), Failure> {
-    let new = args.sampled.shader(&args.snippet, None)?;
-    let truth = match &args.against {
-        Some(old) => {
-            let entry = args.against_entry.as_deref();
-            args.sampled.shader(old, entry)?.truth(&args.sampled.axes()?)?
-        }
-        None => {
-            let formula = args.sampled.formula.as_deref().unwrap_or_default();
-            let outputs = args.outputs.as_deref().unwrap_or_default();
-            Truth::formula(formula, outputs, &args.sampled.axes()?)?
-        }
-    };
-    let axes: Vec<String> = truth.axes().iter().map(|axis| axis.name.to_string()).collect();
-    if axes != truth.inputs() {
-        let message = "--let of an input by parameters: compare functions over their parameters";
-        return Err(Failure::usage(message));
-    }
-    let order = order_of(&new, &axes, truth.outputs(), &args.snippet)?;
-    let dataset = args.sampled.dataset(&truth, common)?;
-    let failed = RefCell::new(None);
-    let score = Score::of_values(&dataset, |split| {
-        let mut outputs = vec![Vec::with_capacity(split.rows()); order.outputs.len()];
-        for row in 0..split.rows() {
-            let point: Vec<f32> =
-                order.inputs.iter().map(|&column| split.columns[column][row]).collect();
-            let values = new.at_in_single(&point).unwrap_or_else(|error| {
-                failed.borrow_mut().get_or_insert(error);
-                vec![f32::NAN; order.outputs.len()]
-            });
-            for (output, &place) in outputs.iter_mut().zip(&order.outputs) {
-                output.push(values[place]);
-            }
-        }
-        outputs
-    });
-    if let Some(error) = failed.into_inner() {
-        return Err(error.into());
-    }
-    conclude(args, &score, truth.outputs(), false, None, common)
-}
-
-/// The places of a function's inputs among columns, and of columns among its outputs.
-struct Order {
-    inputs: Vec<usize>,
-    outputs: Vec<usize>,
-}
-
-fn order_of(
-    new: &Shader,
-    inputs: &[String],
-    outputs: &[String],
-    path: &Path,
-) -> Result<Order, Failure> {
-    let place = |all: &[String], name: &String| all.iter().position(|other| other == name);
-    let differ = |what: &str, mine: &[String], others: &[String]| {
-        let (mine, others) = (mine.join(", "), others.join(", "));
-        unusable(path, &format!("{what} {mine}, but the other function {what} {others}"))
-    };
-    let takes: Option<Vec<usize>> = new.inputs().iter().map(|name| place(inputs, name)).collect();
-    let takes = takes.filter(|takes| takes.len() == inputs.len());
-    let takes = takes.ok_or_else(|| differ("takes", new.inputs(), inputs))?;
-    let named: Option<Vec<usize>> = outputs.iter().map(|name| place(new.outputs(), name)).collect();
-    // Functions of other names return the same in the same order.
-    let in_order = (new.outputs().len() == outputs.len()).then(|| (0..outputs.len()).collect());
-    let returns = named.or(in_order).ok_or_else(|| differ("returns", new.outputs(), outputs))?;
-    Ok(Order { inputs: takes, outputs: returns })
 }
 
 fn snippet_on(args: &Args, dataset: &Path, common: &Common) -> Result<(), Failure> {
@@ -180,7 +107,7 @@ fn snippet_on(args: &Args, dataset: &Path, common: &Common) -> Result<(), Failur
 
 /// Shows the errors, and fails if they are too large or the code is not as its comment says:
 /// `commented` is the reason, if it has such a comment.
-fn conclude(
+pub(super) fn conclude(
     args: &Args,
     score: &Score,
     outputs: &[String],
@@ -252,7 +179,7 @@ fn score(code: &ReadBack, dataset: &Dataset) -> Score {
     })
 }
 
-fn unusable(path: &Path, reason: &dyn Display) -> Failure {
+pub(super) fn unusable(path: &Path, reason: &dyn Display) -> Failure {
     Failure::input(format!("{}: {reason}", path.display()))
 }
 
