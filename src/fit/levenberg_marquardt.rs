@@ -48,8 +48,8 @@ impl Fitter {
     /// Fits every constant of effective code to the samples by least squares, starting from its
     /// value. Returns the weighted sum of squared errors over all outputs.
     ///
-    /// The constants stay as they are if outputs or derivatives are not finite on the samples; the
-    /// sum is then not finite if outputs are not.
+    /// The constants stay as they are if outputs are not finite on the samples; so does the sum then,
+    /// and a constant by which a derivative is not finite, as that of a root at its end.
     ///
     /// # Panics
     /// If the samples and the program differ in the number of inputs or outputs.
@@ -71,6 +71,7 @@ impl Fitter {
         self.damping = 1e-3;
         let jacobian = &self.derivative.jacobian;
         self.evaluator.normal_equations(&self.tape, jacobian, samples, &mut self.current);
+        hold_what_has_no_derivative(&mut self.current);
         self.go_on(draft, samples, stop)
     }
 
@@ -107,6 +108,7 @@ impl Fitter {
                 self.tape.set_constants(&self.trial_constants);
                 let jacobian = &self.derivative.jacobian;
                 self.evaluator.normal_equations(&self.tape, jacobian, samples, &mut self.trial);
+                hold_what_has_no_derivative(&mut self.trial);
                 let (old, new) = (self.current.sum_of_squares, self.trial.sum_of_squares);
                 if is_finite(&self.trial) && new < old {
                     std::mem::swap(&mut self.current, &mut self.trial);
@@ -176,6 +178,24 @@ impl Fitter {
             x[i] /= l[i * n + i];
         }
         true
+    }
+}
+
+/// Takes constants out of the equations by which a derivative is not finite: they then do not move.
+fn hold_what_has_no_derivative(equations: &mut NormalEquations) {
+    if is_finite(equations) || !equations.sum_of_squares.is_finite() {
+        return;
+    }
+    let NormalEquations { gradient, matrix, .. } = equations;
+    let n = gradient.len();
+    for held in 0..n {
+        if gradient[held].is_finite() && matrix[held * n + held].is_finite() {
+            continue;
+        }
+        gradient[held] = 0.0;
+        for other in 0..n {
+            (matrix[held * n + other], matrix[other * n + held]) = (0.0, 0.0);
+        }
     }
 }
 

@@ -56,7 +56,8 @@ impl Linearised {
         let weighed =
             |output| samples.weights(output).iter().map(|&weight| f64::from(weight).sqrt());
         self.slopes.clear();
-        for &(constant, scale) in &self.constants {
+        let mut constants = std::mem::take(&mut self.constants);
+        constants.retain(|&(constant, scale)| {
             let mut slopes = vec![0.0; self.errors.len()];
             for (output, slopes) in slopes.chunks_mut(samples.rows()).enumerate() {
                 let by_this = |entry: &&(u16, u16)| usize::from(entry.0) == constant;
@@ -67,8 +68,14 @@ impl Linearised {
                     }
                 }
             }
-            self.slopes.push(slopes);
-        }
+            // One without a derivative somewhere, as at the end of a root, stays as it is.
+            let has_all = slopes.iter().all(|slope| slope.is_finite());
+            if has_all {
+                self.slopes.push(slopes);
+            }
+            has_all
+        });
+        self.constants = constants;
     }
 
     /// Returns the best step within the trust region, in units of its radius, and the largest error

@@ -1,6 +1,7 @@
 //! The end of a search: its formulas are polished and judged, the most valuable first, while there
 //! is time.
 
+use super::common_factor::without_common_factors;
 use super::polish::{as_found, polish, shortlist, with_short_laws};
 use super::rounding::beyond_rounding;
 use super::{Front, FrontMember, Search};
@@ -8,6 +9,7 @@ use crate::archive::Member;
 use crate::deadline::Deadline;
 use crate::fit::{Fitter, Measure, Stop};
 use crate::program::Draft;
+use crate::simplify::Simplifier;
 use rayon::prelude::*;
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::time::{Duration, Instant};
@@ -157,6 +159,13 @@ fn by_value(front: &[(f64, f64)]) -> Vec<usize> {
 fn contending(search: &Search, measure: Measure, work: &Work) -> (Vec<Draft>, bool) {
     let mut drafts = archived(search);
     drafts.extend(search.contenders());
+    let (mut simplifier, mut simple) = (Simplifier::default(), Draft::default());
+    let plain = drafts.iter().filter_map(|draft| {
+        // Algebra multiplies out what then has a common factor.
+        simplifier.simplify(draft, &mut simple);
+        without_common_factors(&simple)
+    });
+    drafts.extend(plain.collect::<Vec<_>>());
     let problem = search.problem();
     let samples = problem.all_in(measure);
     // Half of the time is left for polishing those that are worth it.

@@ -22,6 +22,7 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 
+mod common_factor;
 mod enumerate;
 mod finish;
 mod front;
