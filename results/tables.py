@@ -1,5 +1,5 @@
-"""Writes the tables of results/README.md and results/scenes/README.md, between their marks, by what `lgp` says of the
-committed runs."""
+"""Writes the tables of results/README.md, results/scenes/README.md and results/functions/README.md, between their marks,
+by what `lgp` says of the committed runs."""
 
 import json
 import re
@@ -95,4 +95,34 @@ def cut():
     replace("scenes/README.md", "cut", lines)
 
 
-{"gallery": gallery, "scenes": scenes}[sys.argv[1]]()
+# Minimax polynomials of Sollya 7.0 (`remez`, `dirtyinfnorm`; functions/minimax.sollya), the error in real numbers: name, form,
+# cycles on gcn without the polynomial (a cycle a degree), errors by degree from 1 on.
+MINIMAX = [
+    ("acos", "sqrt(1 - x)·p(x)", 6, [3.21e-3, 3.27e-4, 3.80e-5, 4.80e-6, 6.38e-7, 8.80e-8, 1.25e-8]),
+    ("exp2", "p(x)", 0, [4.31e-2, 2.48e-3, 1.08e-4, 3.71e-6, 1.07e-7]),
+    ("atan", "p(x)", 0, [3.56e-2, 2.46e-3, 1.11e-3, 1.07e-4, 2.10e-5, 6.39e-6, 4.09e-7, 1.90e-7]),
+    ("atan", "x·p(x²)", 2, [4.96e-3, 6.09e-4, 8.14e-5, 1.15e-5, 1.67e-6]),
+    ("srgb", "p(x)", 0, [1.24e-1, 6.34e-2, 3.95e-2, 2.70e-2, 1.95e-2, 1.46e-2, 1.12e-2, 8.68e-3]),
+    ("srgb", "p(√x)", 4, [2.23e-2, 5.36e-3, 1.82e-3, 7.25e-4, 3.16e-4, 1.47e-4, 7.05e-5, 3.51e-5]),
+    ("srgb", "p(log2 x)", 4, [1.28e-1, 2.47e-2, 3.64e-3, 4.33e-4, 4.32e-5, 3.70e-6, 2.79e-7]),
+]
+
+
+def functions():
+    lines = ["| function | cycles | minimax polynomial | its error | the front's error there | proved, rounding included |", "|---|---|---|---|---|---|"]
+    for name in dict.fromkeys(row[0] for row in MINIMAX):
+        members = json.loads((RESULTS / f"functions/{name}.json").read_text())
+        best = {}
+        for _, form, cost, errors in (row for row in MINIMAX if row[0] == name):
+            for degree, error in enumerate(errors, 1):
+                if cost + degree not in best or error < best[cost + degree][0]:
+                    best[cost + degree] = (error, f"{form}, degree {degree}")
+        for cycles, (error, form) in sorted(best.items()):
+            found = min((m for m in members if m["cost"] <= cycles), key=lambda m: m["max_error"])
+            truth = found["verdict"].get("truth", [{}])[0]
+            proved = f"{truth['most']:.2e}" if "most" in truth else truth.get("status", "not tried")
+            lines.append(f"| `{name}` | {cycles} | {form} | {error:.2e} | {found['max_error']:.2e} | {proved} |")
+    replace("functions/README.md", "minimax", lines)
+
+
+{"gallery": gallery, "scenes": scenes, "functions": functions}[sys.argv[1]]()
