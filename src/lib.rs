@@ -36,7 +36,7 @@
 //! | [`cli`] | a file a subcommand |
 //!
 //! The features `report` and `cli`, on by default, are the last two rows and all that only they
-//! need. All is one crate, since a search needs every module above them; a test checks the order.
+//! need; `arrays`, too, is what reads textures. All is one crate, since a search needs every module above them; a test checks the order.
 //!
 //! # Words
 //! | word | meaning |

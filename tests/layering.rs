@@ -2,7 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
-const LAYERS: [&str; 27] = [
+const LAYERS: [&str; 29] = [
     "deadline",
     "file",
     "printable",

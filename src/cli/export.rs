@@ -5,26 +5,31 @@ use super::{Common, Failure};
 use crate::dataset::Dataset;
 use crate::export::{Rows, to_csv};
 use crate::file::replace_file;
+use crate::import::array::{Array, to_exr, to_npy};
 use clap::ValueEnum;
 use serde::Serialize;
 use std::path::{Path, PathBuf};
 
-/// Write a dataset as a table for other programs
+/// Write a dataset as a table or a picture for other programs
 ///
-/// The columns are the inputs, the outputs, `weight` and the standard errors as `y_se`, as far as
-/// there are any; `lgp import` reads the same values back. Units, domains and claims stay behind.
+/// As .csv or .npy a table. The columns are the inputs, the outputs, `weight` and the standard errors as `y_se`, as far as
+/// there are any; `lgp import` reads the same values back. As .exr, or as .npy with --grid, the outputs
+/// on their grid, the first input along x. Units, domains and claims stay behind.
 ///
 /// For example: lgp export datasets/dfg.bin -o dfg.csv
 #[derive(clap::Args)]
 pub struct Args {
     /// The dataset: a file from `lgp generate` or `lgp import`
     dataset: PathBuf,
-    /// The file to write; its extension says as what: .csv
+    /// The file to write; its extension says as what: .csv, .npy or .exr
     #[arg(short, long, value_name = "FILE")]
     output: PathBuf,
     /// The rows to write
     #[arg(long, value_enum, default_value_t = Which::Both)]
     split: Which,
+    /// Write the outputs on the grid of the inputs, without these, as .exr always does
+    #[arg(long)]
+    grid: bool,
 }
 
 #[derive(Clone, Copy, ValueEnum)]
@@ -46,7 +51,7 @@ struct Exported {
 }
 
 pub fn run(args: &Args, common: &Common) -> Result<(), Failure> {
-    let write = writer(&args.output)?;
+    let write = writer(&args.output, args.grid)?;
     let dataset = Dataset::load(&args.dataset)?;
     check_writable(&args.output)?;
     let rows = match args.split {
@@ -54,7 +59,8 @@ pub fn run(args: &Args, common: &Common) -> Result<(), Failure> {
         Which::Validation => Rows::Validation,
         Which::Both => Rows::Both,
     };
-    let bytes = write(&dataset, rows);
+    let bytes = write(&dataset, rows)
+        .map_err(|reason| Failure::input(format!("{}: {reason}", args.dataset.display())))?;
     replace_file(&args.output, &bytes).map_err(|error| Failure::unwritable(&args.output, error))?;
     let exported = Exported {
         rows: rows.of(&dataset).iter().map(|split| split.rows()).sum(),
@@ -65,17 +71,32 @@ pub fn run(args: &Args, common: &Common) -> Result<(), Failure> {
     common.summary(&exported, &text)
 }
 
-/// Makes the bytes of a file.
-type Writer = fn(&Dataset, Rows) -> Vec<u8>;
+/// Makes the bytes of a file, or says why there are none.
+type Writer = fn(&Dataset, Rows) -> Result<Vec<u8>, String>;
 
 /// Returns what writes a file of this extension.
-fn writer(path: &Path) -> Result<Writer, Failure> {
+fn writer(path: &Path, grid: bool) -> Result<Writer, Failure> {
     let extension = path.extension().unwrap_or_default().to_string_lossy().to_ascii_lowercase();
-    match &*extension {
-        "csv" => Ok(|dataset, rows| to_csv(dataset, rows).into_bytes()),
+    match (&*extension, grid) {
+        ("csv", false) => Ok(|dataset, rows| Ok(to_csv(dataset, rows).into_bytes())),
+        ("csv", true) => Err(Failure::usage("--grid: a .csv has rows; write a .npy or an .exr")),
+        ("npy", false) => {
+            Ok(|dataset, rows| Ok(to_npy(&Array::of_rows(dataset, &rows.of(dataset)))))
+        }
+        ("npy", true) => Ok(|dataset, _| Ok(to_npy(&on_grid(dataset)?))),
+        ("exr", _) => {
+            Ok(|dataset, _| to_exr(&on_grid(dataset)?).map_err(|fault| fault.to_string()))
+        }
         _ => {
             let path = path.display();
-            Err(Failure::usage(format!("{path}: cannot be written as .{extension}; write a .csv")))
+            Err(Failure::usage(format!(
+                "{path}: cannot be written as .{extension}; write a .csv, .npy or .exr"
+            )))
         }
     }
+}
+
+fn on_grid(dataset: &Dataset) -> Result<Array, String> {
+    let rows = "its rows are on no grid; write them as .csv, or as .npy without --grid";
+    Array::of_grid(dataset).ok_or_else(|| rows.to_owned())
 }

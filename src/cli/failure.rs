@@ -2,6 +2,7 @@
 
 use super::output::to_stderr;
 use crate::grammar::FileError;
+use crate::import::array;
 use crate::run::{Incompatible, RecordError, SubjectError};
 use crate::search::SetupError;
 use crate::{dataset, import, program, report, scene, targets};
@@ -111,6 +112,12 @@ impl From<import::Error> for Failure {
             import::Error::Dataset(error) => error.into(),
             error => Failure::new(Exit::Input, error),
         }
+    }
+}
+
+impl From<array::Error> for Failure {
+    fn from(error: array::Error) -> Failure {
+        Failure::new(Exit::Input, error)
     }
 }
 

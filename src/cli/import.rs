@@ -1,26 +1,32 @@
-//! `lgp import`: a dataset from a table.
+//! `lgp import`: a dataset from a table, a texture or an array.
 
 use super::output::{check_writable, save};
 use super::pruning::Pruning;
+use super::texture::{Read, Texture};
 use super::{Common, Exit, Failure};
 use crate::dataset::Column;
-use crate::import::is_array;
-use crate::import::table::{Decimal, InputColumns, Options, Separator, Understood, read};
+use crate::import::table::{Decimal, InputColumns, Options, Separator, Understood, parse, read};
 use serde::Serialize;
 use std::path::{Path, PathBuf};
 
-/// Make a dataset from a table of numbers
+/// Make a dataset from a table of numbers, a texture or an array
 ///
-/// Separators, decimal commas, titles, names, units and comments are found, and what was understood
-/// is printed; options overrule it. Without --inputs and --outputs the last column is the output.
-/// A column called `weight` weighs the rows. A column `y_se`, where `y` is an output, holds the
-/// standard errors of `y`: no formula wins by a smaller difference. Columns of text are left out.
-/// One row in four is kept for validation.
+/// Of a table, separators, decimal commas, titles, names, units and comments are found, and what
+/// was understood is printed; options overrule it. Without --inputs and --outputs the last column is
+/// the output. A column called `weight` weighs the rows. A column `y_se`, where `y` is an output,
+/// holds the standard errors of `y`: no formula wins by a smaller difference. Columns of text are
+/// left out. One row in four is kept for validation.
+///
+/// Of a texture (PNG, EXR, HDR, DDS, KTX2), a lookup table (.cube, .spi1d, .spi3d), an array (.npy, .npz,
+/// raw numbers, or one in a source file), each texel is a row: its place on the axes are the inputs,
+/// its channels the outputs.
 ///
 /// For example: lgp import mine.csv -o mine.bin --inputs 2
+///
+/// Or: lgp import lut.exr -o lut.bin --axes n_dot_v,roughness --channels scale,bias
 #[derive(clap::Args)]
 pub struct Args {
-    /// The table, as .csv, .tsv, .txt or .dat; - reads standard input
+    /// The table, as .csv, .tsv, .txt or .dat, texture or array; - reads a table from standard input
     table: PathBuf,
     /// The dataset to write
     #[arg(short, long, value_name = "FILE")]
@@ -41,6 +47,8 @@ pub struct Args {
     claim: Vec<String>,
     #[command(flatten)]
     pruning: Pruning,
+    #[command(flatten)]
+    texture: Texture,
 }
 
 /// How the table is written, where that is not found.
@@ -98,17 +106,45 @@ struct Imported {
     validation_rows: usize,
     standard_errors: bool,
     hash: String,
-    understood: Understood,
+    understood: Understanding,
+}
+
+/// What was understood of the file.
+#[derive(Serialize)]
+#[serde(untagged)]
+enum Understanding {
+    Table(Understood),
+    Array(Vec<String>),
+}
+
+impl Understanding {
+    fn sentences(&self) -> Vec<String> {
+        match self {
+            Understanding::Table(understood) => understood.sentences(),
+            Understanding::Array(said) => said.clone(),
+        }
+    }
 }
 
 pub fn run(args: &Args, common: &Common) -> Result<(), Failure> {
-    if is_array(&args.table) {
-        let path = args.table.display();
-        return Err(Failure::input(format!(
-            "{path}: not read as a table: it is a picture, a lookup table, a dataset or source code by its name; write its values as CSV, a row a sample with its inputs, or rename it to .txt if it is a table"
-        )));
-    }
-    let (mut dataset, understood) = read(&args.table, &args.options())?;
+    let is_table = args.inputs.is_some() || args.outputs.is_some();
+    let (mut dataset, understood) = match args.texture.read(&args.table, is_table)? {
+        Some(Read::Dataset(dataset, said)) => (dataset, Understanding::Array(said)),
+        Some(Read::Table(text)) => {
+            let (dataset, said) = parse(&args.table, text.into_bytes(), &args.options())?;
+            (dataset, Understanding::Table(said))
+        }
+        None if args.table.extension().is_some_and(|extension| extension == "bin") => {
+            let path = args.table.display();
+            return Err(Failure::input(format!(
+                "{path}: not read as a table: by its name it is a dataset, which `lgp info` shows; give --size if it holds raw numbers, or rename it to .txt if it is a table"
+            )));
+        }
+        None => {
+            let (dataset, said) = read(&args.table, &args.options())?;
+            (dataset, Understanding::Table(said))
+        }
+    };
     let claimed = args.claim.iter().try_for_each(|claim| dataset.claim(claim));
     claimed.map_err(|error| Failure::new(Exit::Usage, error))?;
     if same_file(&args.table, &args.output) {

@@ -31,6 +31,7 @@ mod run_folder;
 mod scene;
 mod search;
 mod specialize;
+mod texture;
 mod tiers;
 mod timings;
 mod truth;

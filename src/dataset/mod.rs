@@ -329,12 +329,12 @@ fn check_identifier(path: &Path, line: Option<usize>, name: &str) -> Result<(), 
         path: path.into(),
         line,
         column: name.into(),
-        suggestion: repaired(name),
+        suggestion: identifier_of(name),
     })
 }
 
 /// Makes an identifier of a name that is not one: `n·v (1)` becomes `n_v_1`.
-fn repaired(name: &str) -> String {
+pub(crate) fn identifier_of(name: &str) -> String {
     let words: Vec<&str> =
         name.split(|c: char| !c.is_ascii_alphanumeric()).filter(|word| !word.is_empty()).collect();
     let joined = words.join("_");
