@@ -36,7 +36,8 @@
 //! | [`cli`] | a file a subcommand |
 //!
 //! The features `report` and `cli`, on by default, are the last two rows and all that only they
-//! need; `arrays`, too, is what reads textures. All is one crate, since a search needs every module above them; a test checks the order.
+//! need; `shader` and `arrays`, which `cli` turns on, are what reads shaders, and what reads textures.
+//! All is one crate, since a search needs every module above them; a test checks the order.
 //!
 //! # Words
 //! | word | meaning |

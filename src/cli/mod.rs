@@ -45,14 +45,18 @@ use std::ffi::OsString;
 use std::process::ExitCode;
 
 const ABOUT: &str = "\
-Finds cheap closed-form shader formulas for a table of samples.
+Finds cheap closed-form shader formulas for a shader, a formula, or a table.
 
-A dataset holds samples of a function: import your own table, or generate one
-of the built-in ground truths. Formulas are judged on two axes: their error, and
-the GPU cycles they cost.";
+A dataset holds samples of a function: import your own table or texture, or
+generate one of the built-in ground truths. Formulas are judged on two axes:
+their error, and the GPU cycles they cost.";
 
 const EXAMPLES: &str = "\
 To begin:
+  lgp search slow.wgsl --domain x=0..1
+                                approximate the function of a shader, or
+  lgp search --formula \"y = acos(x)\" --domain x=0..1
+                                a formula; or from a dataset:
   lgp list                      show targets, datasets, grammars, GPU profiles
   lgp generate dfg -o dfg.bin   make the dataset of a ground truth, or
   lgp import mine.csv -o mine.bin --inputs 2
