@@ -1,11 +1,14 @@
 //! HLSL and Slang: compiled to SPIR-V by a compiler of the machine, or read as a snippet.
 
 use super::Error;
-use super::signature::{CALLER, Declared, Signature, caller, signatures, uncalled};
-use super::source::{Language, Source};
+use super::language::Language;
+use super::signature::{CALLER, Signature, caller, signatures, uncalled};
+use super::source::Source;
+use super::text::Text;
 use crate::suggest::did_you_mean;
+use naga::ShaderStage;
 use std::path::{Path, PathBuf};
-use std::process::{Command, Stdio};
+use std::process::{Child, Command, ExitStatus, Stdio};
 use std::time::{Duration, Instant};
 
 /// A compiler to SPIR-V, and its arguments before the files.
@@ -17,7 +20,7 @@ struct Compiler {
     output: &'static str,
 }
 
-/// In the order of trial. All keep functions apart, without optimisation.
+/// Of HLSL, in the order of trial. All keep functions apart, without optimisation.
 const COMPILERS: [Compiler; 4] = [
     Compiler {
         program: "slangc",
@@ -25,18 +28,8 @@ const COMPILERS: [Compiler; 4] = [
         arguments: &["-target", "spirv", "-stage", "fragment", "-entry", CALLER, "-O0"],
         output: "-o",
     },
-    Compiler {
-        program: "glslangValidator",
-        reads_slang: false,
-        arguments: &["-D", "-Od", "-V", "-S", "frag", "-e", CALLER],
-        output: "-o",
-    },
-    Compiler {
-        program: "glslang",
-        reads_slang: false,
-        arguments: &["-D", "-Od", "-V", "-S", "frag", "-e", CALLER],
-        output: "-o",
-    },
+    glslang("glslangValidator", &["-D", "-Od", "-V", "-S", "frag", "-e", CALLER]),
+    glslang("glslang", &["-D", "-Od", "-V", "-S", "frag", "-e", CALLER]),
     Compiler {
         program: "dxc",
         reads_slang: false,
@@ -45,6 +38,16 @@ const COMPILERS: [Compiler; 4] = [
     },
 ];
 
+/// Of GLSL. Functions that nobody calls are kept.
+const COMPILERS_OF_GLSL: [Compiler; 2] = [
+    glslang("glslangValidator", &["--keep-uncalled", "-Od", "-V", "--amb", "--aml"]),
+    glslang("glslang", &["--keep-uncalled", "-Od", "-V", "--amb", "--aml"]),
+];
+
+const fn glslang(program: &'static str, arguments: &'static [&'static str]) -> Compiler {
+    Compiler { program, reads_slang: false, arguments, output: "-o" }
+}
+
 /// The longest time that a compiler may take. By hand.
 const PATIENCE: Duration = Duration::from_secs(60);
 
@@ -52,18 +55,24 @@ const PATIENCE: Duration = Duration::from_secs(60);
 pub(super) struct Compiled {
     pub source: Source,
     pub name: String,
-    /// By parameter: true if the function may write to it.
-    pub is_out: Vec<bool>,
+}
+
+/// What a compiler says of a text that it does not compile.
+pub(super) struct Rejected {
+    /// The line, counted from 1, if it is known.
+    pub line: Option<usize>,
+    pub message: String,
 }
 
 /// Compiles the function of this name, or the only one that no other calls. None if no compiler is
 /// there.
 pub(super) fn compiled(
     path: &Path,
-    text: &str,
+    written: &Text,
     language: Language,
     entry: Option<&str>,
 ) -> Result<Option<Compiled>, Error> {
+    let text = &written.text;
     let all = signatures(text);
     let signature = chosen(path, text, &all, entry)?;
     let whole = |message: String| Error::Whole { path: path.to_owned(), message };
@@ -74,16 +83,42 @@ pub(super) fn compiled(
         COMPILERS.iter().filter(|c| is_slang || !c.reads_slang).collect();
     usable.sort_by_key(|compiler| compiler.reads_slang != is_slang);
     for compiler in usable {
-        let Some(result) = run(compiler, path, &with_caller).map_err(|e| whole(e.to_string()))?
-        else {
-            continue;
-        };
-        let code = result.map_err(|message| whole(reworded(&message)))?;
-        let source = Source::spir_v(path, code)?;
-        let is_out = signature.parameters.iter().map(|Declared { is_out, .. }| *is_out).collect();
-        return Ok(Some(Compiled { source, name: signature.name.clone(), is_out }));
+        let ran = run(compiler, &[], path, &with_caller).map_err(|e| whole(e.to_string()))?;
+        let Some(result) = ran else { continue };
+        let code = result.map_err(|Rejected { line, message }| match line {
+            Some(line) => {
+                let source = Source::without_module(path, with_caller.clone());
+                Source { written: written.clone(), ..source }.error_in_line(line, message)
+            }
+            None => whole(message),
+        })?;
+        let name = signature.name.clone();
+        let source = Source { declared: vec![signature.clone()], ..Source::spir_v(path, code)? };
+        return Ok(Some(Compiled { source, name }));
     }
     Ok(None)
+}
+
+/// Compiles GLSL that a `#version` begins; none if no compiler is there.
+pub(super) fn glsl(
+    path: &Path,
+    stage: ShaderStage,
+    text: &str,
+) -> Option<Result<Vec<u8>, Rejected>> {
+    let stage = match stage {
+        ShaderStage::Vertex => "vert",
+        ShaderStage::Compute => "comp",
+        _ => "frag",
+    };
+    let mut ran =
+        COMPILERS_OF_GLSL.iter().map(|compiler| run(compiler, &["-S", stage], path, text));
+    ran.find_map(|ran| ran.unwrap_or_else(|error| Some(Err(Rejected::of(error.to_string())))))
+}
+
+impl Rejected {
+    fn of(message: String) -> Rejected {
+        Rejected { line: None, message }
+    }
 }
 
 fn chosen<'a>(
@@ -119,18 +154,17 @@ fn chosen<'a>(
 /// Runs a compiler on a text; none if it is not there. The inner error is the compiler's.
 fn run(
     compiler: &Compiler,
+    options: &[&str],
     path: &Path,
     text: &str,
-) -> std::io::Result<Option<Result<Vec<u8>, String>>> {
+) -> std::io::Result<Option<Result<Vec<u8>, Rejected>>> {
     let folder = tempfile::tempdir()?;
     let name = path.file_name().map_or_else(|| PathBuf::from("shader.hlsl"), PathBuf::from);
     let (input, output) = (folder.path().join(&name), folder.path().join("lgp.spv"));
     let log = folder.path().join("lgp.log");
     std::fs::write(&input, text)?;
-    let around = path.parent().filter(|parent| !parent.as_os_str().is_empty());
-    let around = around.unwrap_or(Path::new(".")).canonicalize()?;
     let mut command = Command::new(compiler.program);
-    command.args(compiler.arguments).arg(format!("-I{}", around.display()));
+    command.args(compiler.arguments).args(options);
     command.arg(compiler.output).arg(&output).arg(&input);
     let file = std::fs::File::create(&log)?;
     command.stdin(Stdio::null()).stdout(file.try_clone()?).stderr(file);
@@ -139,41 +173,53 @@ fn run(
         Err(error) if error.kind() == std::io::ErrorKind::NotFound => return Ok(None),
         Err(error) => return Err(error),
     };
+    let Some(status) = ended(&mut child)? else {
+        let message = format!("{} takes more than a minute for it", compiler.program);
+        return Ok(Some(Err(Rejected::of(message))));
+    };
+    if status.success() && output.exists() {
+        return Ok(Some(Ok(std::fs::read(&output)?)));
+    }
+    let said = String::from_utf8_lossy(&std::fs::read(&log)?).into_owned();
+    let said = said.replace(&format!("{}/", folder.path().display()), "");
+    Ok(Some(Err(rejected(compiler.program, &name.to_string_lossy(), &said))))
+}
+
+/// Waits for a compiler; none if it lost patience, and ended it.
+fn ended(child: &mut Child) -> std::io::Result<Option<ExitStatus>> {
     let start = Instant::now();
-    let status = loop {
+    loop {
         if let Some(status) = child.try_wait()? {
-            break status;
+            return Ok(Some(status));
         }
         if start.elapsed() > PATIENCE {
             child.kill()?;
             child.wait()?;
-            let message = format!("{} takes more than a minute for it", compiler.program);
-            return Ok(Some(Err(message)));
+            return Ok(None);
         }
         std::thread::sleep(Duration::from_millis(5));
-    };
-    Ok(Some(match status.success() {
-        true => Ok(std::fs::read(&output)?),
-        false => {
-            let said = String::from_utf8_lossy(&std::fs::read(&log)?).into_owned();
-            let said = said.replace(&format!("{}/", folder.path().display()), "");
-            Err(format!("{} does not compile it:\n{}", compiler.program, said.trim()))
-        }
-    }))
+    }
 }
 
-/// Leaves of a compiler's messages those that name a place, if any does.
-fn reworded(message: &str) -> String {
-    let mut lines = message.lines();
-    let first = lines.next().unwrap_or_default();
-    let errors: Vec<&str> = lines
-        .clone()
-        .filter(|line| line.contains("error") || line.contains("ERROR"))
-        .filter(|line| {
-            !line.contains("compilation terminated") && !line.contains("compilation errors")
-        })
-        .take(5)
-        .collect();
-    let shown = if errors.is_empty() { lines.take(5).collect() } else { errors };
-    format!("{first}\n  {}", shown.join("\n  "))
+/// Reads what a compiler says: the first message if it names a line as glslang does, else those that
+/// are of errors.
+fn rejected(program: &str, file: &str, said: &str) -> Rejected {
+    let first = said.lines().find_map(|line| {
+        let (line, message) = line
+            .strip_prefix("ERROR: ")?
+            .strip_prefix(file)?
+            .strip_prefix(':')?
+            .split_once(": ")?;
+        Some((line.parse().ok()?, message.trim()))
+    });
+    if let Some((line, message)) = first {
+        let message = format!("{program} says: {message}");
+        return Rejected { line: Some(line), message };
+    }
+    let is_error = |line: &&str| line.contains("error") || line.contains("ERROR");
+    let mut errors: Vec<&str> = said.lines().filter(is_error).take(5).collect();
+    if errors.is_empty() {
+        errors = said.lines().take(5).collect();
+    }
+    Rejected::of(format!("{program} does not compile it:\n  {}", errors.join("\n  ")))
 }

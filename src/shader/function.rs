@@ -4,6 +4,7 @@
 use super::definition::{Definition, free_names, split};
 use super::interpreter::{Interpreter, Step, Stop};
 use super::machine::{Exact, Machine, Single};
+use super::order::calls;
 use super::parameters::{Parameter, Part, Role, arguments, as_kind, globals, parts, wgsl_type};
 use super::source::Source;
 use super::symbols::Symbols;
@@ -57,14 +58,16 @@ impl Subject {
         let module = &source.module;
         let whole = |message: String| source.error(naga::Span::default(), message);
         let mut parameters = arguments(module, entry.of(module)).map_err(whole)?;
-        for (parameter, _) in
-            parameters.iter_mut().zip(&source.is_out).filter(|(_, is_out)| !**is_out)
-        {
-            if parameter.role == Role::Place {
+        let declared = source.declaration(&name, parameters.len()).unwrap_or_default();
+        for (parameter, declared) in parameters.iter_mut().zip(declared) {
+            if parameter.role == Role::Place && !declared.is_out {
                 parameter.role = Role::Copy;
             }
         }
-        parameters.extend(globals(module, &source.given));
+        let of_stage = globals(module, &source.given).into_iter();
+        // What an entry point is given it puts there itself.
+        let named: HashSet<String> = parameters.iter().map(|p| p.name.clone()).collect();
+        parameters.extend(of_stage.filter(|global| !named.contains(&global.name)));
         let mut subject = Subject {
             entry,
             name,
@@ -77,7 +80,6 @@ impl Subject {
             parameters,
             source,
         };
-        subject.outputs = subject.output_names()?;
         for text in &options.set {
             subject.fix(text)?;
         }
@@ -85,6 +87,7 @@ impl Subject {
             subject.define(text)?;
         }
         subject.find_columns(&options.ranged)?;
+        subject.outputs = subject.output_names()?;
         Ok(subject)
     }
 
@@ -113,12 +116,8 @@ impl Subject {
         if outputs.is_empty() {
             return Err(self.refused(format!("`{}` returns nothing", self.name)));
         }
-        let inputs: HashSet<&str> = self
-            .parameters
-            .iter()
-            .flat_map(|p| &p.scalars)
-            .map(|part| part.column.as_str())
-            .collect();
+        let inputs: HashSet<&str> =
+            self.sampled.iter().chain(&self.columns).map(String::as_str).collect();
         let mut taken = HashSet::new();
         let name = |part: Part| {
             let mut name = plain(&part.column);
@@ -468,30 +467,6 @@ fn chosen(source: &Source, name: Option<&str>) -> Result<(Entry, String), Error>
                 "it has several functions: {}; say which, as in --entry {first}",
                 names.join(", ")
             ))
-        }
-    }
-}
-
-/// Collects the functions that a block calls.
-fn calls(block: &naga::Block, called: &mut HashSet<Handle<Function>>) {
-    for statement in block.iter() {
-        match statement {
-            Statement::Call { function, .. } => {
-                called.insert(*function);
-            }
-            Statement::Block(block) => calls(block, called),
-            Statement::If { accept, reject, .. } => {
-                calls(accept, called);
-                calls(reject, called);
-            }
-            Statement::Switch { cases, .. } => {
-                cases.iter().for_each(|case| calls(&case.body, called));
-            }
-            Statement::Loop { body, continuing, .. } => {
-                calls(body, called);
-                calls(continuing, called);
-            }
-            _ => {}
         }
     }
 }

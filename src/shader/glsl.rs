@@ -1,10 +1,13 @@
 //! Makes GLSL as people have it readable for naga, which wants a version, a `main` and bindings.
 //! Places stay: what is left out becomes blanks.
 
+use super::definition::split;
 use naga::ShaderStage;
 use naga::front::glsl::ErrorKind;
 use std::path::Path;
 
+/// The binding of the first block that has none. By hand: above those that files give.
+const FIRST_BINDING: usize = 1000;
 /// In bytes. By hand: longer ones are none.
 const LONGEST_DECLARATION: usize = 1000;
 
@@ -28,7 +31,7 @@ pub(super) fn stage_of(path: &Path) -> ShaderStage {
     }
 }
 
-/// Prepares a text; `defined` are constants that it uses and does not declare.
+/// Prepares a text; `defined` are variables that it uses and does not declare, with their types.
 pub(super) fn prepared(text: &str, defined: &[(String, String)]) -> Prepared {
     let mut bytes = text.as_bytes().to_vec();
     let code = without_comments(text);
@@ -41,18 +44,29 @@ pub(super) fn prepared(text: &str, defined: &[(String, String)]) -> Prepared {
         }
     }
     let words = words(&code);
-    for &(at, word) in &words {
-        if let "lowp" | "mediump" | "highp" = word {
+    for (index, &(at, word)) in words.iter().enumerate() {
+        let next = words.get(index + 1).map_or("", |(_, next)| next);
+        let is_precision = matches!(word, "lowp" | "mediump" | "highp");
+        // naga knows either of `const in`.
+        if is_precision || word == "const" && next == "in" {
             blank(&mut bytes, at..at + word.len());
         }
     }
-    let given = taken_out(&mut bytes, &code, &words);
-    let text = String::from_utf8(bytes).unwrap_or_default();
-    let constants = defined.iter().map(|(name, value)| {
-        let ty = type_of(value);
-        format!("const {ty} {name} = {value};\n")
-    });
-    let before = format!("#version 450\n{}", constants.collect::<String>());
+    let Outside { mut given, blocks } = taken_out(&mut bytes, &code, &words);
+    let built_in = words.iter().map(|(_, word)| *word).filter(|word| word.starts_with("gl_"));
+    given.extend(built_in.map(str::to_owned));
+    let mut text = String::from_utf8(bytes).unwrap_or_default();
+    // naga wants a binding of each; the others' are not known.
+    for (number, at) in blocks.iter().enumerate().rev() {
+        text.insert_str(*at, &format!("layout(binding = {}) ", FIRST_BINDING + number));
+    }
+    let variables = defined.iter().map(|(name, ty)| format!("{ty} {name};\n"));
+    // As OpenGL ES 2 calls it.
+    let older =
+        ["texture2D", "textureCube"].into_iter().filter(|name| code.contains(&format!("{name}(")));
+    let older: String = older.map(|name| format!("#define {name} texture\n")).collect();
+    let before = format!("#version 450\n{older}{}", variables.collect::<String>());
+    given.extend(defined.iter().map(|(name, _)| name.clone()));
     let has_main = words.windows(2).any(|pair| pair[0].1 == "void" && pair[1].1 == "main");
     let main = if has_main { "" } else { "\nvoid main() {}\n" };
     let lines_before = before.matches('\n').count();
@@ -60,10 +74,19 @@ pub(super) fn prepared(text: &str, defined: &[(String, String)]) -> Prepared {
     Prepared { text, lines_before, given, lacks_main }
 }
 
-/// Makes plain variables of those that are given from outside (uniforms, inputs of the stage), and
-/// returns their names. Blocks keep their form.
-fn taken_out(bytes: &mut [u8], code: &str, words: &[(usize, &str)]) -> Vec<String> {
-    let mut given = Vec::new();
+/// What a text has from outside.
+#[derive(Default)]
+struct Outside {
+    /// Variables.
+    given: Vec<String>,
+    /// The places of blocks without a binding.
+    blocks: Vec<usize>,
+}
+
+/// Makes plain variables of those that are given from outside (uniforms, inputs of the stage). Blocks
+/// keep their form, and textures what makes them such.
+fn taken_out(bytes: &mut [u8], code: &str, words: &[(usize, &str)]) -> Outside {
+    let mut outside = Outside::default();
     let (mut depth, mut counted) = (0usize, 0);
     for (index, &(at, word)) in words.iter().enumerate() {
         for byte in code[counted..at].bytes() {
@@ -74,23 +97,38 @@ fn taken_out(bytes: &mut [u8], code: &str, words: &[(usize, &str)]) -> Vec<Strin
             }
         }
         counted = at;
-        if !matches!(word, "uniform" | "varying" | "attribute" | "in") || depth > 0 {
+        let is_from_outside = matches!(word, "uniform" | "buffer" | "varying" | "attribute" | "in");
+        if !is_from_outside || depth > 0 {
             continue;
         }
         let rest = code[at..].bytes().take(LONGEST_DECLARATION);
         let length = rest.take_while(|byte| !b";{)".contains(byte)).count();
         let end = at + length;
-        if code[end..].starts_with(';') {
+        if code[end..].starts_with(';') && word != "buffer" {
             let names = words[index + 1..].iter().take_while(|(place, _)| *place < end);
             let names: Vec<&str> = names.map(|(_, name)| *name).collect();
+            if names.first().is_some_and(|ty| is_texture(ty)) {
+                continue;
+            }
             // The type comes first, and what follows `=` or stands in `[ ]` is no name; a name too
             // many harms nobody.
-            given.extend(names.iter().skip(1).map(|name| (*name).to_owned()));
+            outside.given.extend(names.iter().skip(1).map(|name| (*name).to_owned()));
             blank(bytes, at..at + word.len());
             blank_layout_before(bytes, code, at);
+        } else if code[end..].starts_with('{') && matches!(word, "uniform" | "buffer") {
+            let start = code[..at].rfind([';', '}']).map_or(0, |place| place + 1);
+            if !code[start..at].contains("binding") {
+                outside.blocks.push(at);
+            }
         }
     }
-    given
+    outside
+}
+
+/// Returns true for the type of a texture in GLSL.
+fn is_texture(ty: &str) -> bool {
+    let ty = ty.trim_start_matches(['i', 'u']);
+    ["sampler", "image", "mage", "texture", "subpassInput"].iter().any(|kind| ty.starts_with(kind))
 }
 
 /// Blanks `layout(…)` and interpolation qualifiers before a place.
@@ -103,26 +141,64 @@ fn blank_layout_before(bytes: &mut [u8], code: &str, at: usize) {
     }
 }
 
-/// Says what is wrong, and what to do where it is usual.
-pub(super) fn explained(kind: &ErrorKind) -> String {
-    match kind {
-        ErrorKind::UnknownVariable(name) => format!(
+/// Says what is wrong and what to do, where that is known; `statement` begins at the place of the
+/// error.
+pub(super) fn explained(kind: &ErrorKind, statement: &str) -> Option<String> {
+    if let ErrorKind::UnknownVariable(name) = kind {
+        return Some(format!(
             "`{name}` is declared nowhere; if it is a uniform, fix it, as in --set {name}=1.0; if it is a texture, import that as data (`lgp import`)"
-        ),
-        ErrorKind::UnknownType(name) if name.contains("sampler") => format!(
-            "`{name}` is a texture, of which there is no value; import it as data (`lgp import`), or leave its declaration out if the function does without"
-        ),
-        kind => kind.to_string(),
+        ));
     }
+    if statement.trim_start().starts_with('#') && statement.contains("include") {
+        let line = statement.lines().next().unwrap_or_default();
+        return Some(format!("`{line}`: there is no such file beside this one"));
+    }
+    let texture = words(statement).into_iter().find(|(_, word)| is_texture(word))?.1;
+    Some(format!(
+        "`{texture}` is a texture, of which there is no value; import it as data (`lgp import`), or leave its declaration out if the function does without"
+    ))
 }
 
-/// Returns the type of a value as `--set` has it.
-fn type_of(value: &str) -> &str {
+/// Returns what `--set` and `--domain` give, which a text need not declare, with their types.
+pub(super) fn given(set: &[String], ranged: &[String]) -> Vec<(String, String)> {
+    let set = set.iter().filter_map(|text| split(text).ok());
+    let mut given: Vec<(String, String)> =
+        set.map(|(name, value)| (name.to_owned(), type_of(value))).collect();
+    for column in ranged {
+        // Of components that are named, a variable of as many.
+        let component = column.rsplit_once('_').and_then(|(name, component)| {
+            Some((name, "xyzw".find(component).filter(|_| component.len() == 1)?))
+        });
+        if let Some((name, place)) = component {
+            let size = place.max(1) + 1;
+            match given.iter_mut().find(|(known, _)| known == name) {
+                Some((_, ty)) if ty.starts_with("vec") && !ty.ends_with('4') => {
+                    *ty = format!("vec{}", size.max(ty[3..].parse().unwrap_or(size)));
+                }
+                Some(_) => {}
+                None => given.push((name.to_owned(), format!("vec{size}"))),
+            }
+        }
+        if given.iter().all(|(known, _)| known != column) {
+            given.push((column.clone(), "float".to_owned()));
+        }
+    }
+    given
+}
+
+/// Returns the type in GLSL of a value as WGSL writes it.
+fn type_of(value: &str) -> String {
     let value = value.trim();
-    match value.find('(') {
-        Some(end) => value[..end].trim(),
-        None if matches!(value, "true" | "false") => "bool",
-        None => "float",
+    let of_number = if matches!(value, "true" | "false") { "bool" } else { "float" };
+    let Some(end) = value.find(['(', '<']).filter(|end| *end > 0) else {
+        return of_number.to_owned();
+    };
+    let name = value[..end].trim().trim_end_matches('f');
+    match name {
+        "i32" => "int".to_owned(),
+        "u32" => "uint".to_owned(),
+        _ if name.starts_with("vec") || name.starts_with("mat") => name.to_owned(),
+        _ => of_number.to_owned(),
     }
 }
 

@@ -15,7 +15,7 @@ const MOST_STEPS: u64 = 100_000_000;
 const DEEPEST_CALL: usize = 64;
 
 /// The most blocks within each other, those of calls included: each takes some of the stack.
-const DEEPEST_BLOCK: usize = 400;
+pub(super) const DEEPEST_BLOCK: usize = 400;
 
 /// Why and where an evaluation stopped.
 #[derive(Clone, Debug)]

@@ -23,31 +23,38 @@ mod definition;
 mod error;
 mod expression;
 mod external;
+mod front;
 mod function;
 mod glsl;
 mod interpreter;
+mod language;
 mod machine;
+mod macros;
 mod math;
+mod order;
 mod parameters;
 mod paths;
 mod signature;
 mod source;
 mod straight;
 mod symbols;
+mod text;
 mod value;
 
 pub use error::Error;
-pub use source::{LARGEST_SHADER, Language};
+pub use language::Language;
+pub use text::LARGEST_SHADER;
 
 use crate::dataset::{Axis, Function, Origin};
 use crate::program::Program;
 use crate::truth::{Truth, axes_of, write_domain};
 use external::{Compiled, compiled};
 use function::Subject;
-use source::{Source, text_of};
+use source::Source;
 use std::path::Path;
 use std::sync::Arc;
 use straight::Straight;
+use text::{Text, read, text_of};
 
 /// Which function of a file is meant, and what its parameters are.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
@@ -83,43 +90,63 @@ impl Shader {
     /// A file that cannot be read or is not understood; no function, or several; definitions that
     /// do not fit its parameters.
     pub fn load(path: &Path, options: &Options) -> Result<Shader, Error> {
-        Shader::parse(path, source::read(path)?, options)
+        let (language, bytes) = (Shader::language(path)?, read(path)?);
+        match language {
+            Language::SpirV | Language::Wgsl => Shader::parse(path, bytes, options),
+            _ => {
+                let text = Text::with_included(path, text_of(path, bytes)?)?;
+                Shader::of_text(path, language, text, options)
+            }
+        }
     }
 
-    /// Reads a function of a file's bytes; the path says the language by its extension.
+    /// Reads a function of a file's bytes; the path says the language by its extension. What the
+    /// file includes is not read.
     ///
     /// # Errors
     /// As [`Shader::load`].
     pub fn parse(path: &Path, bytes: Vec<u8>, options: &Options) -> Result<Shader, Error> {
-        let Some(language) = Language::of(path) else {
-            let message = "not a shader, by its extension; the languages are .wgsl, .glsl, .frag, .comp, .hlsl, .slang and .spv".to_owned();
-            return Err(Error::Whole { path: path.to_owned(), message });
-        };
+        let language = Shader::language(path)?;
         if language == Language::SpirV {
             let code = bytes.iter().map(|byte| format!("{byte:02x}")).collect();
             return Shader::of(path, Source::spir_v(path, bytes)?, code, options);
         }
-        let text = text_of(path, bytes)?;
+        Shader::of_text(path, language, Text::of(text_of(path, bytes)?), options)
+    }
+
+    fn language(path: &Path) -> Result<Language, Error> {
+        Language::of(path).ok_or_else(|| {
+            let message = "not a shader, by its extension; the languages are .wgsl, .glsl, .frag, .comp, .hlsl, .slang and .spv".to_owned();
+            Error::Whole { path: path.to_owned(), message }
+        })
+    }
+
+    fn of_text(
+        path: &Path,
+        language: Language,
+        text: Text,
+        options: &Options,
+    ) -> Result<Shader, Error> {
         match language {
-            Language::Wgsl => Shader::of(path, Source::wgsl(path, text.clone())?, text, options),
+            Language::Wgsl => {
+                let source = Source::wgsl(path, text.text.clone())?;
+                Shader::of(path, source, text.text, options)
+            }
             Language::Glsl => {
-                let set = options.set.iter().filter_map(|text| definition::split(text).ok());
-                let set: Vec<(String, String)> =
-                    set.map(|(name, value)| (name.to_owned(), value.to_owned())).collect();
-                Shader::of(path, Source::glsl(path, &text, &set)?, text, options)
+                let given = glsl::given(&options.set, &options.ranged);
+                Shader::of(path, Source::glsl(path, &text, &given)?, text.text, options)
             }
             _ => match compiled(path, &text, language, options.entry.as_deref())? {
-                Some(Compiled { mut source, name, is_out }) => {
+                Some(Compiled { mut source, name }) => {
                     source.numbers_names = language == Language::Slang;
-                    source.is_out = is_out;
                     let options = Options { entry: Some(name), ..options.clone() };
-                    Shader::of(path, source, text, &options)
+                    Shader::of(path, source, text.text, &options)
                 }
                 None => {
-                    let straight = Straight::read(path, &text, language, options)?;
+                    let straight = Straight::read(path, &text.text, language, options)?;
                     let entry = straight.name.clone();
                     let body = Body::Straight(Arc::new(straight));
-                    Ok(Shader { body, origin: origin(path, text, entry, options) })
+                    Ok(Shader { body, origin: origin(path, text.text, entry, options) })
                 }
             },
         }
@@ -178,8 +205,14 @@ impl Shader {
     /// parameters, if any, then its outputs.
     ///
     /// # Errors
-    /// What cannot be evaluated: a texture, a uniform without a value, a loop without end.
+    /// What cannot be evaluated: a texture, a uniform without a value, a loop without end; a point of
+    /// another length.
     pub fn at(&self, point: &[f64]) -> Result<Vec<f64>, Error> {
+        let (given, inputs) = (point.len(), self.inputs().len());
+        if given != inputs {
+            let message = format!("{given} values are given for {inputs} inputs");
+            return Err(Error::Whole { path: self.name().into(), message });
+        }
         match &self.body {
             Body::Interpreted(subject) => subject.at(point),
             Body::Straight(straight) => Ok(straight.at(point)),

@@ -1,7 +1,11 @@
 //! The parameters of a function, taken apart into scalars, each of which can be a column.
 
+use super::order::blocks;
 use super::value::Scalar;
-use naga::{AddressSpace, ArraySize, Function, Handle, Module, ScalarKind, Type, TypeInner};
+use naga::{
+    AddressSpace, ArraySize, Block, Expression, Function, Handle, Module, ScalarKind, Statement,
+    Type, TypeInner,
+};
 
 /// The most scalars of a parameter or result. By hand: more are no function of values.
 const MOST_SCALARS: usize = 1024;
@@ -39,16 +43,48 @@ pub(super) struct Part {
 
 /// Returns the arguments of a function.
 pub(super) fn arguments(module: &Module, function: &Function) -> Result<Vec<Parameter>, String> {
+    let written = written(function);
     let each = function.arguments.iter().enumerate().map(|(index, argument)| {
         let name = argument.name.clone().unwrap_or_else(|| format!("input_{index}"));
         let (ty, role) = match module.types[argument.ty].inner {
-            TypeInner::Pointer { base, .. } => (base, Role::Place),
+            TypeInner::Pointer { base, .. } if written[index] => (base, Role::Place),
+            TypeInner::Pointer { base, .. } => (base, Role::Copy),
             _ => (argument.ty, Role::Argument),
         };
         let scalars = parts(module, &name, ty)?;
         Ok(Parameter { name, ty, role, scalars })
     });
     each.collect()
+}
+
+/// Returns of each argument whether the function may write to where it points. Compilers to SPIR-V
+/// pass places of all arguments.
+fn written(function: &Function) -> Vec<bool> {
+    let mut written = vec![false; function.arguments.len()];
+    let mut places = Vec::new();
+    places_written(&function.body, &mut places);
+    for mut place in places {
+        while let Expression::Access { base, .. } | Expression::AccessIndex { base, .. } =
+            function.expressions[place]
+        {
+            place = base;
+        }
+        if let Expression::FunctionArgument(index) = function.expressions[place] {
+            written[index as usize] = true;
+        }
+    }
+    written
+}
+
+/// Collects what a block stores to, and what it passes on.
+fn places_written(block: &Block, found: &mut Vec<Handle<Expression>>) {
+    for statement in block.iter() {
+        match statement {
+            Statement::Store { pointer, .. } => found.push(*pointer),
+            Statement::Call { arguments, .. } => found.extend(arguments),
+            other => blocks(other).into_iter().for_each(|block| places_written(block, found)),
+        }
+    }
 }
 
 /// Returns the global variables that are given from outside: uniforms, buffers, and those whose

@@ -1,6 +1,6 @@
 //! Functions without branches, read as `lgp verify` reads snippets: where no compiler is installed.
 
-use super::source::Language;
+use super::language::Language;
 use super::{Error, Options};
 use crate::emit::{self, read_back};
 use crate::eval::{Arithmetic, Double};
