@@ -4,6 +4,7 @@ use super::Error;
 use super::interpreter::{Interpreter, Step};
 use super::machine::Machine;
 use super::source::Source;
+use super::text::Text;
 use super::value::Value;
 use naga::{Expression, Handle};
 use std::path::Path;
@@ -61,7 +62,7 @@ impl Definition {
             arguments.iter().map(|(name, ty)| format!("{name}: {ty}")).collect();
         let text =
             format!("fn lgp_function({}) {{\nlet {RESULT} = {expression};\n}}", list.join(", "));
-        let source = Source::wgsl(Path::new("it"), text).map_err(|error| {
+        let source = Source::wgsl(Path::new("it"), &Text::of(text)).map_err(|error| {
             let reason = match error {
                 Error::At { message, .. } => message,
                 other => other.to_string(),

@@ -5,20 +5,24 @@ use super::machine::{Extra, Machine, Reason};
 use super::value::{Pointer, Scalar, Value, Vector};
 use crate::op::Op;
 use naga::{
-    AddressSpace, ArraySize, BinaryOperator, Expression, Handle, Literal, MathFunction,
+    AddressSpace, ArraySize, BinaryOperator, Constant, Expression, Handle, Literal, MathFunction,
     RelationalFunction, ScalarKind, Type, TypeInner, UnaryOperator,
 };
 
-/// The most elements of an array. By hand: a table that a shader holds is shorter.
-const LONGEST_ARRAY: u32 = 1 << 20;
+/// The most bytes of a value. By hand: tables of 64³ numbers are as large.
+const LARGEST_TYPE: u32 = 1 << 20;
 
 impl<'a, M: Machine> Interpreter<'a, '_, M> {
     /// Returns the value of an expression of the current call.
     pub fn value(&mut self, handle: Handle<Expression>) -> Step<Value<M>> {
-        if let Some(value) = &self.frame().values[handle.index()] {
-            return Ok(value.clone());
+        let Some(value) = &self.frame().values[handle.index()] else {
+            return self.expression(handle);
+        };
+        let value = value.clone();
+        if let Value::Several(_) = value {
+            self.copy(value.size())?;
         }
-        self.expression(handle)
+        Ok(value)
     }
 
     pub fn pointer(&mut self, handle: Handle<Expression>) -> Step<Pointer> {
@@ -39,7 +43,11 @@ impl<'a, M: Machine> Interpreter<'a, '_, M> {
         let module = self.module;
         Ok(match *expression {
             Expression::Literal(literal) => Value::Scalar(self.literal(literal)?),
-            Expression::Constant(constant) => self.constant(module.constants[constant].init)?,
+            Expression::Constant(constant) => {
+                let value = self.known(constant)?.clone();
+                self.copy(value.size())?;
+                value
+            }
             Expression::Override(handle) => {
                 let name = module.overrides[handle].name.as_deref().unwrap_or("a constant");
                 match module.overrides[handle].init {
@@ -51,7 +59,11 @@ impl<'a, M: Machine> Interpreter<'a, '_, M> {
                     }
                 }
             }
-            Expression::ZeroValue(ty) => self.zero(ty)?,
+            Expression::ZeroValue(ty) => {
+                let zero = self.zero(ty)?;
+                self.copy(zero.size())?;
+                zero
+            }
             Expression::Compose { ty, ref components } => {
                 let values = components.iter().map(|&component| self.value(component));
                 let values = values.collect::<Step<Vec<_>>>()?;
@@ -190,6 +202,10 @@ impl<'a, M: Machine> Interpreter<'a, '_, M> {
     /// Returns the value of a type that is zero throughout.
     pub fn zero(&mut self, ty: Handle<Type>) -> Result<Value<M>, Reason> {
         let module = self.module;
+        let bytes = module.types[ty].inner.try_size(module.to_ctx());
+        if bytes.is_none_or(|bytes| bytes > LARGEST_TYPE) {
+            return Err("its type is too large, or has no size".into());
+        }
         Ok(match module.types[ty].inner {
             TypeInner::Scalar(kind) | TypeInner::Atomic(kind) => {
                 Value::Scalar(Scalar::zero(&mut *self.machine, kind)?)
@@ -202,9 +218,6 @@ impl<'a, M: Machine> Interpreter<'a, '_, M> {
                 Value::Several(vec![Value::Vector(column); columns as usize])
             }
             TypeInner::Array { base, size: ArraySize::Constant(size), .. } => {
-                if size.get() > LONGEST_ARRAY {
-                    return Err(format!("an array of {size} elements is too long"));
-                }
                 Value::Several(vec![self.zero(base)?; size.get() as usize])
             }
             TypeInner::Struct { ref members, .. } => {
@@ -230,21 +243,48 @@ impl<'a, M: Machine> Interpreter<'a, '_, M> {
         })
     }
 
+    /// Returns the value of a constant.
+    fn known(&mut self, constant: Handle<Constant>) -> Result<&Value<M>, Reason> {
+        if self.constants[constant.index()].is_none() {
+            let value = self.constant(self.module.constants[constant].init)?;
+            self.copy(value.size())?;
+            self.constants[constant.index()] = Some(value);
+        }
+        self.constants[constant.index()].as_ref().ok_or_else(|| "it has no value".into())
+    }
+
+    /// Returns a component of a value, which may be a large table that is not worth a copy.
     fn accessed(&mut self, base: Handle<Expression>, index: u32) -> Step<Value<M>> {
+        let at = index as usize;
+        let function = self.frame().function;
+        match &self.frame().values[base.index()] {
+            Some(value @ Value::Several(_)) => return Ok(value.component(at)?),
+            Some(_) => {}
+            None => {
+                if let Expression::Constant(constant) = function.expressions[base] {
+                    return Ok(self.known(constant)?.component(at)?);
+                }
+            }
+        }
         Ok(match self.value(base)? {
             Value::Pointer(pointer) => Value::Pointer(pointer.component(index)),
-            value => value.component(index as usize)?,
+            value => value.component(at)?,
         })
     }
 
     fn load(&mut self, pointer: &Pointer) -> Step<Value<M>> {
         let mut value = &*self.variable(pointer);
-        let mut component;
-        for &index in &pointer.path {
-            component = value.component(index as usize)?;
-            value = &component;
+        let mut path = pointer.path.as_slice();
+        while let (Value::Several(values), [first, rest @ ..]) = (value, path) {
+            let outside = || format!("index {first} is out of bounds");
+            (value, path) = (values.get(*first as usize).ok_or_else(outside)?, rest);
         }
-        let value = value.clone();
+        let value = match path {
+            [] => value.clone(),
+            [last] => value.component(*last as usize)?,
+            _ => return Err("it has no components".to_owned().into()),
+        };
+        self.copy(value.size())?;
         // Of a vector, one component may be all that is used.
         let is_unset = |scalar: &Scalar<M>| matches!(scalar, Scalar::Unset);
         let scalars = value.flattened();

@@ -85,12 +85,13 @@ pub(super) fn compiled(
     for compiler in usable {
         let ran = run(compiler, &[], path, &with_caller).map_err(|e| whole(e.to_string()))?;
         let Some(result) = ran else { continue };
+        let own_lines = text.lines().count();
         let code = result.map_err(|Rejected { line, message }| match line {
-            Some(line) => {
+            Some(line) if line <= own_lines => {
                 let source = Source::without_module(path, with_caller.clone());
                 Source { written: written.clone(), ..source }.error_in_line(line, message)
             }
-            None => whole(message),
+            _ => whole(message),
         })?;
         let name = signature.name.clone();
         let source = Source { declared: vec![signature.clone()], ..Source::spir_v(path, code)? };

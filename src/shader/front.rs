@@ -27,13 +27,17 @@ const PATIENCE: Duration = Duration::from_secs(60);
 /// What to do where the module is found to be no valid one: usually the front end made a mistake.
 const READER: &str = "if that is in order, the reader of shaders (naga) does not know it: write that expression otherwise";
 
+/// What is wrong with `#include` where it is left.
+const NOT_BESIDE: &str = "there is no such file beside this one";
+
 /// Names that are given from outside, and their types in GLSL.
 pub(super) type Given = [(String, String)];
 
 impl Source {
-    pub fn wgsl(path: &Path, text: String) -> Result<Source, Error> {
-        check_depth(path, &Text::default(), &text)?;
-        let source = Source::without_module(path, text);
+    pub fn wgsl(path: &Path, written: &Text) -> Result<Source, Error> {
+        check_depth(path, written, &written.text)?;
+        let source = Source::without_module(path, written.text.clone());
+        let source = Source { written: written.clone(), ..source };
         let text = source.text.clone();
         let parsed = apart(path, move || wgsl::parse_str(&text))?;
         let module = parsed.map_err(|error| {
@@ -41,7 +45,9 @@ impl Source {
             let labels: Vec<&str> = error.labels().map(|(_, label)| label).collect();
             let label = labels.join(", ");
             let at = span.to_range().and_then(|range| source.text.get(range.start..));
-            let message = if at.is_some_and(|rest| rest.starts_with('#')) {
+            let message = if at.is_some_and(|rest| rest.starts_with("#include")) {
+                NOT_BESIDE.to_owned()
+            } else if at.is_some_and(|rest| rest.starts_with('#')) {
                 "WGSL has no preprocessor; give the text that yours makes of it".to_owned()
             } else if error.message() == "internal WGSL front end error" {
                 "an expression is nested too deep for its parser; take it apart".to_owned()
@@ -124,6 +130,8 @@ impl Source {
                     let unknown = message.split_once("' : undeclared identifier");
                     let unknown = unknown.and_then(|(before, _)| before.rsplit('\'').next());
                     if !define(unknown, outside, &mut defined) {
+                        let is_include = message.contains("'#include'");
+                        let message = if is_include { NOT_BESIDE.to_owned() } else { message };
                         let error = line.map(|line| source.error_in_line(line, message));
                         return Some(Err(error));
                     }

@@ -2,7 +2,7 @@
 //! others, and what it returns.
 
 use super::definition::{Definition, free_names, split};
-use super::interpreter::{Interpreter, Step, Stop};
+use super::interpreter::{Interpreter, MOST_STEPS, Step, Stop};
 use super::machine::{Exact, Machine, Single};
 use super::order::calls;
 use super::parameters::{Parameter, Part, Role, arguments, as_kind, globals, parts, wgsl_type};
@@ -35,6 +35,8 @@ pub(super) struct Subject {
     pub sampled: Vec<String>,
     /// The inputs of formulas: the derived columns, and what is sampled and in none of them.
     pub columns: Vec<String>,
+    /// The most steps of an evaluation.
+    pub steps: u64,
 }
 
 #[derive(Clone, Copy, Debug)]
@@ -77,6 +79,7 @@ impl Subject {
             derived: Vec::new(),
             sampled: Vec::new(),
             columns: Vec::new(),
+            steps: MOST_STEPS,
             parameters,
             source,
         };
@@ -218,7 +221,8 @@ impl Subject {
                 let is_it =
                     |fixed: &Definition| is_part_of(&part.column, &column_name(&fixed.name));
                 let has_range = ranged.contains(&plain(&part.column));
-                let is_optional = matches!(parameter.role, Role::Place | Role::Global(_));
+                let is_optional =
+                    matches!(parameter.role, Role::Place | Role::Global(_) | Role::BuiltIn);
                 if self.fixed.iter().any(is_it) || is_optional && !has_range {
                     continue;
                 }
@@ -287,12 +291,12 @@ impl Subject {
         }
         let module = self.module();
         let function = self.entry.of(module);
-        let mut interpreter = Interpreter::new(module, machine)?;
+        let mut interpreter = Interpreter::new(module, machine)?.within(self.steps);
         let first = interpreter.globals.len();
         let mut passed = Vec::new();
         for (parameter, value) in self.parameters.iter().zip(arguments) {
             match parameter.role {
-                Role::Argument => passed.push(value),
+                Role::Argument | Role::BuiltIn => passed.push(value),
                 Role::Global(index) => interpreter.globals[index] = value,
                 Role::Place | Role::Copy => {
                     let variable = interpreter.globals.len();

@@ -149,10 +149,6 @@ pub(super) fn explained(kind: &ErrorKind, statement: &str) -> Option<String> {
             "`{name}` is declared nowhere; if it is a uniform, fix it, as in --set {name}=1.0; if it is a texture, import that as data (`lgp import`)"
         ));
     }
-    if statement.trim_start().starts_with('#') && statement.contains("include") {
-        let line = statement.lines().next().unwrap_or_default();
-        return Some(format!("`{line}`: there is no such file beside this one"));
-    }
     let texture = words(statement).into_iter().find(|(_, word)| is_texture(word))?.1;
     Some(format!(
         "`{texture}` is a texture, of which there is no value; import it as data (`lgp import`), or leave its declaration out if the function does without"
@@ -222,6 +218,19 @@ pub(super) fn without_comments(text: &str) -> String {
         at += length;
     }
     // Blanked are whole comments, so that characters stay whole.
+    String::from_utf8(bytes).unwrap_or_default()
+}
+
+/// Returns the text with the preprocessor's lines blanked.
+pub(super) fn without_directives(text: &str) -> String {
+    let mut bytes = text.as_bytes().to_vec();
+    let mut goes_on = false;
+    for (start, line) in lines(text) {
+        if goes_on || line.trim_start().starts_with('#') {
+            blank(&mut bytes, start..start + line.len());
+            goes_on = line.trim_end().ends_with('\\');
+        }
+    }
     String::from_utf8(bytes).unwrap_or_default()
 }
 

@@ -8,9 +8,16 @@ use naga::{
     Statement, SwitchValue, Type, TypeInner,
 };
 
-/// The most steps of one evaluation: expressions, statements, iterations. By hand: about ten
-/// seconds.
-const MOST_STEPS: u64 = 100_000_000;
+/// The most steps of one evaluation: expressions, statements, iterations, and scalars of arrays that
+/// are copied. By hand: about ten seconds.
+pub(super) const MOST_STEPS: u64 = 100_000_000;
+/// Fewer scalars are copied in the time of a step. By hand, unmeasured.
+const COPIED_IN_A_STEP: usize = 16;
+/// The most scalars in all variables at a time. By hand: the largest tables of shaders, twice; they
+/// take some 40 MiB.
+const MOST_HELD: usize = 1 << 19;
+/// The most scalars in the variables of all paths at a time. By hand: a third of a gibibyte.
+const MOST_KEPT: usize = 1 << 22;
 /// The most calls within each other. Shading languages have no recursion.
 const DEEPEST_CALL: usize = 64;
 
@@ -73,7 +80,13 @@ pub(super) struct Interpreter<'a, 'm, M: Machine> {
     /// The names of those places.
     pub places: Vec<String>,
     pub paths: Paths<M>,
+    /// The values of the module's constants, as far as they were needed.
+    pub constants: Vec<Option<Value<M>>>,
     steps: u64,
+    most_steps: u64,
+    /// The scalars in variables, and those in the variables that paths left behind.
+    held: usize,
+    kept: usize,
     /// The number of blocks and calls within each other.
     depth: usize,
 }
@@ -81,17 +94,32 @@ pub(super) struct Interpreter<'a, 'm, M: Machine> {
 impl<'a, 'm, M: Machine> Interpreter<'a, 'm, M> {
     /// Makes an interpreter; global variables have their initial values, and uniforms none.
     pub fn new(module: &'a Module, machine: &'m mut M) -> Step<Interpreter<'a, 'm, M>> {
-        let (frames, globals, places) = (Vec::new(), Vec::new(), Vec::new());
-        let paths = Paths::default();
-        let mut new =
-            Interpreter { module, machine, frames, globals, places, paths, steps: 0, depth: 0 };
+        let mut new = Interpreter {
+            module,
+            machine,
+            frames: Vec::new(),
+            globals: Vec::new(),
+            places: Vec::new(),
+            paths: Paths::default(),
+            constants: (0..module.constants.len()).map(|_| None).collect(),
+            steps: 0,
+            most_steps: MOST_STEPS,
+            held: 0,
+            kept: 0,
+            depth: 0,
+        };
         for (handle, global) in module.global_variables.iter() {
-            let value = new.initial(global);
+            let value = new.initial(global).and_then(|value| new.hold(&value).map(|()| value));
             let span = module.global_variables.get_span(handle);
             let value = value.map_err(|reason| Stop::from(reason).at(span))?;
             new.globals.push(value);
         }
         Ok(new)
+    }
+
+    /// Allows for so many steps.
+    pub fn within(self, most_steps: u64) -> Self {
+        Interpreter { most_steps, ..self }
     }
 
     fn initial(&mut self, global: &GlobalVariable) -> Result<Value<M>, Reason> {
@@ -129,19 +157,25 @@ impl<'a, 'm, M: Machine> Interpreter<'a, 'm, M> {
         if !M::SYMBOLIC {
             return self.called(function, arguments);
         }
-        let before = self.store();
+        let before = self.store()?;
         self.paths.begin();
         let mut leaves = Vec::new();
+        let kept = self.kept;
         loop {
             self.restore(&before);
             let result = self.called(function, arguments.clone())?;
             let decisions = self.paths.taken();
-            leaves.push(Leaf { decisions, result, store: self.store() });
+            self.kept += self.held;
+            if self.kept > MOST_KEPT {
+                return Err("it has too many paths for such large variables".to_owned().into());
+            }
+            leaves.push(Leaf { decisions, result, store: self.store()? });
             if !self.paths.next()? {
                 break;
             }
         }
         self.paths.end();
+        self.kept = kept;
         let Leaf { result, store, .. } = merged(self.machine, leaves, 0)?;
         self.restore(&store);
         Ok(result)
@@ -154,7 +188,7 @@ impl<'a, 'm, M: Machine> Interpreter<'a, 'm, M> {
     ) -> Step<Option<Value<M>>> {
         self.enter(function, arguments)?;
         let flow = self.block(&function.body)?;
-        self.frames.pop();
+        self.leave();
         match flow {
             Flow::Return(value) => Ok(value),
             _ => Ok(None),
@@ -171,8 +205,37 @@ impl<'a, 'm, M: Machine> Interpreter<'a, 'm, M> {
         self.enter(function, arguments)?;
         self.block(&function.body)?;
         let value = self.value(expression);
-        self.frames.pop();
+        self.leave();
         value
+    }
+
+    fn leave(&mut self) {
+        let left = self.frames.pop();
+        if let Some(frame) = left {
+            let locals: usize = frame.locals.iter().map(Value::size).sum();
+            self.held -= locals + frame.values.iter().flatten().map(weight).sum::<usize>();
+        }
+    }
+
+    /// Keeps the value of an expression of the current call.
+    fn keep(&mut self, handle: Handle<Expression>, value: Value<M>) -> Result<(), Reason> {
+        let new = weight(&value);
+        let old = self.frame().values[handle.index()].replace(value);
+        self.held -= old.as_ref().map_or(0, weight);
+        self.hold_more(new)
+    }
+
+    /// Counts the scalars of a new variable.
+    fn hold(&mut self, value: &Value<M>) -> Result<(), Reason> {
+        self.hold_more(value.size())
+    }
+
+    fn hold_more(&mut self, scalars: usize) -> Result<(), Reason> {
+        self.held += scalars;
+        match self.held > MOST_HELD {
+            true => Err(format!("its variables are of more than {MOST_HELD} numbers")),
+            false => Ok(()),
+        }
     }
 
     fn enter(&mut self, function: &'a Function, arguments: Vec<Value<M>>) -> Step<()> {
@@ -181,6 +244,7 @@ impl<'a, 'm, M: Machine> Interpreter<'a, 'm, M> {
         for (handle, local) in function.local_variables.iter() {
             let span = function.local_variables.get_span(handle);
             let value = self.initial_local(local).map_err(|stop| stop.at(span))?;
+            self.hold(&value).map_err(|reason| Stop::from(reason).at(span))?;
             self.frame().locals.push(value);
         }
         Ok(())
@@ -200,10 +264,20 @@ impl<'a, 'm, M: Machine> Interpreter<'a, 'm, M> {
 
     fn step(&mut self) -> Result<(), Reason> {
         self.steps += 1;
-        match self.steps > MOST_STEPS {
-            true => Err(format!("it takes more than {MOST_STEPS} steps; a loop may have no end")),
+        let most = self.most_steps;
+        match self.steps > most {
+            true => Err(format!("it takes more than {most} steps; a loop may have no end")),
             false => Ok(()),
         }
+    }
+
+    /// Takes the steps for copying so many scalars.
+    pub fn copy(&mut self, scalars: usize) -> Result<(), Reason> {
+        if scalars < COPIED_IN_A_STEP {
+            return Ok(());
+        }
+        self.steps += scalars as u64;
+        self.step()
     }
 
     fn block(&mut self, block: &'a Block) -> Step<Flow<M>> {
@@ -235,7 +309,7 @@ impl<'a, 'm, M: Machine> Interpreter<'a, 'm, M> {
                 for handle in range.clone() {
                     self.step()?;
                     let value = self.expression(handle)?;
-                    self.frame().values[handle.index()] = Some(value);
+                    self.keep(handle, value)?;
                 }
             }
             Statement::Block(block) => return self.block(block),
@@ -278,8 +352,8 @@ impl<'a, 'm, M: Machine> Interpreter<'a, 'm, M> {
                 let arguments = arguments.iter().map(|&argument| self.value(argument));
                 let arguments = arguments.collect::<Step<Vec<_>>>()?;
                 let returned = self.call(function, arguments)?;
-                if let Some(result) = result {
-                    self.frame().values[result.index()] = returned;
+                if let (Some(result), Some(returned)) = (result, returned) {
+                    self.keep(*result, returned)?;
                 }
             }
             // Of one invocation, barriers mean nothing.
@@ -321,12 +395,12 @@ impl<'a, 'm, M: Machine> Interpreter<'a, 'm, M> {
             let taken = self.paths.decide(condition);
             return self.block(if taken { accept } else { reject });
         }
-        let before = self.store();
+        let before = self.store()?;
         self.block(accept)?;
-        let yes = self.store();
+        let yes = self.store()?;
         self.restore(&before);
         self.block(reject)?;
-        let no = self.store();
+        let no = self.store()?;
         let either = yes.or(no, self.machine, condition)?;
         self.restore(&either);
         Ok(Flow::Next)
@@ -364,9 +438,10 @@ impl<'a, 'm, M: Machine> Interpreter<'a, 'm, M> {
         }
     }
 
-    pub fn store(&self) -> Store<M> {
+    pub fn store(&mut self) -> Result<Store<M>, Reason> {
+        self.copy(3 * self.held)?;
         let locals = self.frames.iter().map(|frame| frame.locals.clone()).collect();
-        Store { globals: self.globals.clone(), locals }
+        Ok(Store { globals: self.globals.clone(), locals })
     }
 
     pub fn restore(&mut self, store: &Store<M>) {
@@ -374,6 +449,14 @@ impl<'a, 'm, M: Machine> Interpreter<'a, 'm, M> {
         for (frame, locals) in self.frames.iter_mut().zip(&store.locals) {
             frame.locals.clone_from(locals);
         }
+    }
+}
+
+/// Returns the scalars of a value, if it may be large.
+fn weight<M: Machine>(value: &Value<M>) -> usize {
+    match value {
+        Value::Several(_) => value.size(),
+        _ => 0,
     }
 }
 

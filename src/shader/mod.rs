@@ -92,9 +92,11 @@ impl Shader {
     pub fn load(path: &Path, options: &Options) -> Result<Shader, Error> {
         let (language, bytes) = (Shader::language(path)?, read(path)?);
         match language {
-            Language::SpirV | Language::Wgsl => Shader::parse(path, bytes, options),
+            Language::SpirV => Shader::parse(path, bytes, options),
             _ => {
-                let text = Text::with_included(path, text_of(path, bytes)?)?;
+                // WGSL has nothing that would keep a file from being included twice.
+                let once = language == Language::Wgsl;
+                let text = Text::with_included(path, text_of(path, bytes)?, once)?;
                 Shader::of_text(path, language, text, options)
             }
         }
@@ -129,7 +131,7 @@ impl Shader {
     ) -> Result<Shader, Error> {
         match language {
             Language::Wgsl => {
-                let source = Source::wgsl(path, text.text.clone())?;
+                let source = Source::wgsl(path, &text)?;
                 Shader::of(path, source, text.text, options)
             }
             Language::Glsl => {
@@ -228,6 +230,15 @@ impl Shader {
             Body::Interpreted(subject) => subject.at_in_single(point),
             Body::Straight(straight) => Ok(straight.program.evaluate(point)),
         }
+    }
+
+    /// Allows for so many steps in an evaluation: statements, expressions, iterations of loops. By
+    /// default they are 100 million, which take seconds.
+    pub fn within(mut self, steps: u64) -> Shader {
+        if let Body::Interpreted(subject) = &mut self.body {
+            Arc::make_mut(subject).steps = steps;
+        }
+        self
     }
 
     /// Returns the function as a program over its inputs: loops unrolled, branches as choices.

@@ -3,8 +3,8 @@
 use super::order::blocks;
 use super::value::Scalar;
 use naga::{
-    AddressSpace, ArraySize, Block, Expression, Function, Handle, Module, ScalarKind, Statement,
-    Type, TypeInner,
+    AddressSpace, ArraySize, Binding, Block, Expression, Function, Handle, Module, ScalarKind,
+    Statement, Type, TypeInner,
 };
 
 /// The most scalars of a parameter or result. By hand: more are no function of values.
@@ -25,6 +25,8 @@ pub(super) struct Parameter {
 pub(super) enum Role {
     /// An argument that it reads.
     Argument,
+    /// One that the stage gives, of which it may read a component.
+    BuiltIn,
     /// An argument that it may write to.
     Place,
     /// An argument that is passed as a place, but of which only the value counts.
@@ -49,6 +51,9 @@ pub(super) fn arguments(module: &Module, function: &Function) -> Result<Vec<Para
         let (ty, role) = match module.types[argument.ty].inner {
             TypeInner::Pointer { base, .. } if written[index] => (base, Role::Place),
             TypeInner::Pointer { base, .. } => (base, Role::Copy),
+            _ if matches!(argument.binding, Some(Binding::BuiltIn(_))) => {
+                (argument.ty, Role::BuiltIn)
+            }
             _ => (argument.ty, Role::Argument),
         };
         let scalars = parts(module, &name, ty)?;

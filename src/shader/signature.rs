@@ -1,6 +1,7 @@
 //! Finds the functions of HLSL and Slang text, as far as is needed to have one compiled.
 
-use super::glsl::without_comments;
+use super::glsl::{without_comments, without_directives, words};
+use std::collections::HashSet;
 
 /// A function as its text declares it.
 #[derive(Clone, Debug, PartialEq)]
@@ -23,7 +24,7 @@ pub(super) struct Declared {
 
 /// Returns the functions that are defined at the top of a text.
 pub(super) fn signatures(text: &str) -> Vec<Signature> {
-    let code = without_comments(text);
+    let code = without_directives(&without_comments(text));
     let bytes = code.as_bytes();
     let (mut found, mut at, mut start) = (Vec::new(), 0, 0);
     while at < bytes.len() {
@@ -70,16 +71,18 @@ pub(super) fn signatures(text: &str) -> Vec<Signature> {
     found
 }
 
-/// Returns the only function whose name occurs in no other's body.
+/// Returns the functions whose names occur in no other's body; of several of a name, the first.
 pub(super) fn uncalled<'a>(text: &str, all: &'a [Signature]) -> Vec<&'a Signature> {
-    let code = without_comments(text);
-    let is_called = |name: &str| {
-        all.iter().any(|other| {
-            let body = code.get(other.body.clone()).unwrap_or_default();
-            super::glsl::words(body).iter().any(|(_, word)| *word == name)
-        })
-    };
-    all.iter().filter(|signature| !is_called(&signature.name)).collect()
+    let code = without_directives(&without_comments(text));
+    let mut called: HashSet<&str> = HashSet::new();
+    for function in all {
+        let body = code.get(function.body.clone()).unwrap_or_default();
+        let names = words(body).into_iter().map(|(_, word)| word);
+        called.extend(names.filter(|name| *name != function.name));
+    }
+    let mut known = HashSet::new();
+    let open = all.iter().filter(|signature| !called.contains(signature.name.as_str()));
+    open.filter(|signature| known.insert(signature.name.as_str())).collect()
 }
 
 /// Returns an entry point that calls a function: compilers leave out what nobody calls.
@@ -149,18 +152,21 @@ mod tests {
     use super::*;
 
     const TEXT: &str = "static const float PI = 3.14; // (not { this
+#define HALF (0.5 * \\
+    PI)
 cbuffer C { float exposure; };
 float3 fresnel(float3 f0, float u) { return f0 * u; }
 [noinline] void shade(in float3 f0 : COLOR0, float weights[2], const float u = 0.5f,
                       out float3 result, inout Material m) : SV_Target
 { if (u > 0) { result = fresnel(f0, u); } }
-float later(float x);";
+float later(float x);
+float4 fresnel(float4 f0) { return float4(fresnel(f0.xyz, f0.w), 1); }";
 
     #[test]
     fn functions_are_found_with_their_parameters() {
         let all = signatures(TEXT);
         let names: Vec<&str> = all.iter().map(|signature| signature.name.as_str()).collect();
-        assert_eq!(names, ["fresnel", "shade"]);
+        assert_eq!(names, ["fresnel", "shade", "fresnel"]);
         let types: Vec<&str> = all[1].parameters.iter().map(|p| p.ty.as_str()).collect();
         assert_eq!(types, ["float3", "float", "float", "float3", "Material"]);
         let out: Vec<bool> = all[1].parameters.iter().map(|p| p.is_out).collect();

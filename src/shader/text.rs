@@ -4,6 +4,7 @@ use super::Error;
 use super::glsl::without_comments;
 use crate::file::read_file;
 use crate::program::{place, pointed};
+use std::collections::HashSet;
 use std::path::{Path, PathBuf};
 
 /// The largest shader file, in bytes, what it includes among it. By hand: generated shaders of
@@ -33,6 +34,20 @@ struct Piece {
     line: usize,
 }
 
+/// The files that are not included again.
+struct Seen {
+    /// True if none is.
+    once: bool,
+    files: HashSet<PathBuf>,
+}
+
+impl Seen {
+    fn contains(&mut self, file: &Path) -> bool {
+        let Ok(file) = file.canonicalize() else { return false };
+        if self.once { !self.files.insert(file) } else { self.files.contains(&file) }
+    }
+}
+
 /// Returns the bytes of a shader file.
 pub(super) fn read(path: &Path) -> Result<Vec<u8>, Error> {
     read_file(path, LARGEST_SHADER)
@@ -58,28 +73,24 @@ impl Text {
     }
 
     /// Puts the files that `#include` names in its place, as long as they are there; they are
-    /// searched for from the including file's folder.
-    pub fn with_included(path: &Path, text: String) -> Result<Text, Error> {
+    /// searched for from the including file's folder. With `once`, each only the first time.
+    pub fn with_included(path: &Path, text: String, once: bool) -> Result<Text, Error> {
         if !text.contains("include") {
             return Ok(Text::of(text));
         }
         let mut whole = Text::default();
-        whole.add(path, &text, &mut Vec::new(), 0)?;
+        let own = path.canonicalize().into_iter().filter(|_| once);
+        let mut seen = Seen { once, files: own.collect() };
+        whole.add(path, &text, &mut seen, 0)?;
         Ok(whole)
     }
 
-    fn add(
-        &mut self,
-        path: &Path,
-        text: &str,
-        only_once: &mut Vec<PathBuf>,
-        depth: usize,
-    ) -> Result<(), Error> {
+    fn add(&mut self, path: &Path, text: &str, seen: &mut Seen, depth: usize) -> Result<(), Error> {
         self.begin(path, 0);
         let code = without_comments(text);
         for (index, (line, code)) in text.split_inclusive('\n').zip(code.split('\n')).enumerate() {
             if code.split_whitespace().eq(["#pragma", "once"]) {
-                only_once.extend(path.canonicalize().ok());
+                seen.files.extend(path.canonicalize());
                 self.push("\n");
                 continue;
             }
@@ -93,8 +104,8 @@ impl Text {
                 let message = format!("line {}: {problem}", index + 1);
                 return Err(Error::Whole { path: path.to_owned(), message });
             }
-            if file.canonicalize().is_ok_and(|file| !only_once.contains(&file)) {
-                self.add(&file, &text_of(&file, bytes)?, only_once, depth + 1)?;
+            if !seen.contains(&file) {
+                self.add(&file, &text_of(&file, bytes)?, seen, depth + 1)?;
             }
             if !self.text.ends_with('\n') {
                 self.push("\n");

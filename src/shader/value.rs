@@ -99,7 +99,7 @@ impl Pointer {
 }
 
 const UNKNOWN: &str = "an integer depends on the inputs";
-const UNSET: &str = "it is read before it is written";
+const UNSET: &str = "it has no value yet; give it one, by --set or in the --domain";
 
 impl<M: Machine> Scalar<M> {
     pub fn float(self) -> Result<M::Float, Reason> {
@@ -263,6 +263,15 @@ impl<M: Machine> Value<M> {
                 to.ok_or_else(|| format!("index {index} is out of bounds"))?.store(rest, value)
             }
             Value::Scalar(_) | Value::Pointer(_) => Err("it has no components".into()),
+        }
+    }
+
+    /// Returns the number of its scalars.
+    pub fn size(&self) -> usize {
+        match self {
+            Value::Scalar(_) | Value::Pointer(_) => 1,
+            Value::Vector(_) => 4,
+            Value::Several(values) => values.iter().map(Value::size).sum(),
         }
     }
 

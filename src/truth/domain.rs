@@ -38,6 +38,9 @@ pub fn write_domain(axes: &[Axis]) -> String {
 /// An input without a range, or a range without an input; both say which there are.
 pub fn axes_of(domain: &[Axis], inputs: &[String]) -> Result<Vec<Axis>, Error> {
     let known = || inputs.iter().map(String::as_str);
+    if inputs.is_empty() {
+        return Err(Error::NoInputs);
+    }
     if let Some(unknown) = domain.iter().find(|axis| known().all(|name| name != axis.name)) {
         let hint = did_you_mean(&unknown.name, known());
         let inputs = inputs.join(", ");

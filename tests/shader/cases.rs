@@ -13,6 +13,8 @@ pub struct Case {
     pub domain: &'static [[f64; 2]],
     /// An expression of the inputs `a`, `b`, … that gives all outputs, as both languages write it.
     pub call: &'static str,
+    /// What sets variables that it shares with other calls back, in both languages.
+    pub before: &'static str,
     /// What follows it for each output.
     pub outputs: &'static [&'static str],
     /// Why it is no program, if it is none.
@@ -36,7 +38,7 @@ const fn case(
     call: &'static str,
     outputs: &'static [&'static str],
 ) -> Case {
-    Case { name, domain, call, outputs, no_program: None, single: 1e-5 }
+    Case { name, domain, call, before: "", outputs, no_program: None, single: 1e-5 }
 }
 
 pub const CASES: [Case; 22] = [
@@ -89,7 +91,10 @@ pub const CASES: [Case; 22] = [
         ..case("taken_apart", &[[-20.0, 20.0]; 2], "taken_apart(a, b)", FOUR)
     },
     case("modulo", &[[-3.0, 3.0]; 3], "modulo(a, vec2(b, c))", FOUR),
-    case("state", &[UNIT], "state(a)", TWO),
+    Case {
+        before: "calls = 2; seed = vec2(0.5, 0.25); ",
+        ..case("state", &[UNIT], "state(a)", TWO)
+    },
     case("truths", &[UNIT; 6], "truths(vec3(a, b, c), vec3(d, e, f))", THREE),
     case("components", &[SIGNED; 4], "components(vec4(a, b, c, d))", FOUR),
 ];

@@ -152,6 +152,14 @@ fn large_arrays_are_refused_or_small() {
             "c.wgsl",
             "@group(0) @binding(0) var<uniform> a: array<vec4<f32>, 4000000>; fn f(x: f32) -> f32 { return a[1].x + x; }",
         ),
+        (
+            "e.wgsl",
+            "struct S { a: array<f32, 200000>, b: array<f32, 200000> } fn f(x: f32) -> f32 { var a: array<S, 100>; return a[1].a[1] + x; }",
+        ),
+        (
+            "g.wgsl",
+            "fn f(x: f32) -> f32 { var a: array<f32, 200000>; var b = a; var c = b; return a[1] + b[1] + c[1] + x; }",
+        ),
         ("d.glsl", "float a[2000000000]; float f(float x) { return a[1] + x; }"),
     ] {
         says(&tried(file, text, &[0.5]).unwrap_err(), &[file]);
@@ -162,6 +170,31 @@ fn large_arrays_are_refused_or_small() {
         return sum;
     }";
     assert_eq!(tried("copied.wgsl", copied, &[0.5]).unwrap(), [50_000.5]);
+    for (file, step) in [
+        ("copies.wgsl", "b = a; a = b; y += a[i % 7];"),
+        ("paths.wgsl", "if (y > x) { a[1] = y; } else { a[2] = y; } y += a[2] + 1.0;"),
+        ("ways.wgsl", "if (y > x + f32(i)) { return a[3]; } y += 0.5;"),
+        ("zeros.wgsl", "let c = array<f32, 100000>(); y += c[i % 7];"),
+    ] {
+        let text = format!(
+            "fn f(x: f32) -> f32 {{ var a: array<f32, 100000>; var b: array<f32, 100000>; var y = x;
+            for (var i = 0; i < 1000000; i++) {{ {step} }} return y; }}"
+        );
+        let shader = read(file, &text).unwrap();
+        let start = Instant::now();
+        let (values, program) = (shader.at(&[0.5]), shader.program());
+        assert!(start.elapsed() < PATIENCE, "{file}: {:?}", start.elapsed());
+        assert!(program.is_err(), "{file}");
+        if let Err(error) = values {
+            says(&error, &[file, "line 2", "steps"]);
+        }
+    }
+    let table: String = (0..4096).map(|i| format!("{i}.0, ")).collect();
+    let looked_up = format!(
+        "const TABLE = array<f32, 4096>({table});
+fn f(x: f32) -> f32 {{ var y = x; for (var i = 0; i < 40960; i++) {{ y += TABLE[i % 4096]; }} return y; }}"
+    );
+    assert_eq!(tried("table.wgsl", &looked_up, &[0.5]).unwrap(), [83_865_600.5]);
 }
 
 #[test]

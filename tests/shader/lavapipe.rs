@@ -83,8 +83,8 @@ fn main_of(case: &Case, language: &str) -> String {
         code += &format!("        {declared} {name} = lgp_columns[{}u + i];\n", column * ROWS);
     }
     for (o, component) in case.outputs.iter().enumerate() {
-        let call = case.call;
-        code += &format!("        lgp_results[{}u + i] = {call}{component};\n", o * ROWS);
+        let Case { before, call, .. } = case;
+        code += &format!("        {before}lgp_results[{}u + i] = {call}{component};\n", o * ROWS);
     }
     let before = match language {
         "wgsl" => format!(

@@ -83,6 +83,19 @@ fn what_the_stage_gives_is_not_zero_unless_one_says_so() {
 }
 
 #[test]
+fn entry_points_need_what_they_read_of_the_stage() {
+    let text = "@fragment
+fn shaded(@builtin(position) at: vec4<f32>, @location(0) uv: vec2<f32>) -> @location(0) vec4<f32> {
+    return vec4(at.x * 2.0, uv, 1.0);
+}";
+    let shader = read_with("p.wgsl", text, &options("", &[], &[], &["at_x"])).unwrap();
+    assert_eq!(shader.inputs(), ["at_x", "uv_x", "uv_y"]);
+    assert_eq!(shader.at(&[3.0, 0.5, 0.25]).unwrap(), [6.0, 0.5, 0.25, 1.0]);
+    let error = read("p.wgsl", text).unwrap().at(&[0.5, 0.25]).unwrap_err();
+    says(&error, &["p.wgsl, line 3", "no value yet", "--set"]);
+}
+
+#[test]
 fn open_gl_es_is_read() {
     let old = "#version 100
 #extension GL_OES_standard_derivatives : enable
@@ -148,6 +161,15 @@ fn included_files_are_found_beside_the_file() {
     says(&error, &["square.glsl, line 2, column", "`z`"]);
     let path = file("missing.glsl", "#include \"none.glsl\"\nfloat f(float x) { return x; }");
     says(&Shader::load(&path, &Options::default()).unwrap_err(), &["missing.glsl, line 1", "none"]);
+    file("math/cube.wgsl", "fn cube(x: f32) -> f32 { return x*x*x; }");
+    let path = file(
+        "f.wgsl",
+        "#include \"math/cube.wgsl\"\n#include \"math/cube.wgsl\"\n\
+        fn f(x: f32) -> f32 { return cube(x); }",
+    );
+    assert_eq!(Shader::load(&path, &Options::default()).unwrap().at(&[2.0]).unwrap(), [8.0]);
+    let path = file("f.hlsl", "#include \"none.hlsl\"\nfloat f(float x) { return x; }");
+    says(&Shader::load(&path, &Options::default()).unwrap_err(), &["f.hlsl"]);
     let path = file("itself.glsl", "#include \"itself.glsl\"\nfloat f(float x) { return x; }");
     let error = Shader::load(&path, &Options::default()).unwrap_err();
     says(&error, &["itself.glsl", "line 1", "include each other"]);
