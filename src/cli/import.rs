@@ -129,7 +129,7 @@ impl Understanding {
 pub fn run(args: &Args, common: &Common) -> Result<(), Failure> {
     let is_table = args.inputs.is_some() || args.outputs.is_some();
     let (mut dataset, understood) = match args.texture.read(&args.table, is_table)? {
-        Some(Read::Dataset(dataset, said)) => (dataset, Understanding::Array(said)),
+        Some(Read::Dataset(dataset, said)) => (*dataset, Understanding::Array(said)),
         Some(Read::Table(text)) => {
             let (dataset, said) = parse(&args.table, text.into_bytes(), &args.options())?;
             (dataset, Understanding::Table(said))

@@ -46,7 +46,7 @@ pub(super) struct Texture {
 /// A texture, a lookup table or an array that was read.
 pub(super) enum Read {
     /// Its texels, and lines that say what was understood.
-    Dataset(Dataset, Vec<String>),
+    Dataset(Box<Dataset>, Vec<String>),
     /// Its rows and columns, as CSV.
     Table(String),
 }
@@ -87,7 +87,7 @@ impl Texture {
         };
         if !is_table {
             let (dataset, understood) = layout.dataset(path, &array)?;
-            return Ok(Some(Read::Dataset(dataset, understood)));
+            return Ok(Some(Read::Dataset(Box::new(dataset), understood)));
         }
         if axes > 0 {
             let message =

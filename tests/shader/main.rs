@@ -1,6 +1,8 @@
 //! Functions of shaders as truths: that they compute what compilers and GPUs make of them, that
 //! programs of them are the same functions, and what becomes of files that are none.
 
+#![cfg(feature = "cli")]
+
 mod cases;
 mod cpp;
 mod hlsl;
