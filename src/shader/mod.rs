@@ -2,7 +2,7 @@
 //!
 //! Files are read to naga's intermediate representation: WGSL and GLSL by its front ends, HLSL and
 //! Slang by way of SPIR-V. An interpreter evaluates the function that is asked for, in `f64`, or
-//! writes it down as a [`Program`](crate::program::Program) over its inputs, loops unrolled, so that
+//! writes it down as a [`Program`] over its inputs, loops unrolled, so that
 //! the original is costed and scored as formulas are. The constants of a shader are those of its
 //! own precision.
 //!
