@@ -1,57 +1,43 @@
 //! A function of a shader over columns: which parameters are inputs, which are fixed or defined by
 //! others, and what it returns.
 
-use super::definition::{Definition, free_names, split};
-use super::interpreter::{Interpreter, MOST_STEPS, Step, Stop};
+use super::budget::MOST_STEPS;
+use super::columns::{is_part_of, plain};
+use super::definition::Definition;
+use super::entry::{Entry, chosen};
+use super::interpreter::{Interpreter, Step, Stop};
 use super::machine::{Exact, Machine, Single};
-use super::order::calls;
-use super::parameters::{Parameter, Part, Role, arguments, as_kind, globals, parts, wgsl_type};
+use super::parameters::{Parameter, Role, arguments, as_kind, globals};
 use super::source::Source;
 use super::symbols::Symbols;
 use super::value::{Pointer, Scalar, Value};
 use super::{Error, Options};
 use crate::program::Program;
-use crate::suggest::did_you_mean;
 use crate::truth::column_name;
-use naga::{Function, Handle, Module, ScalarKind, Statement};
+use naga::{Module, ScalarKind};
 use std::collections::HashSet;
 
 /// The function of a file that is approximated.
 #[derive(Clone, Debug)]
 pub(super) struct Subject {
-    source: Source,
-    entry: Entry,
+    pub source: Source,
+    pub entry: Entry,
     pub name: String,
-    parameters: Vec<Parameter>,
+    pub parameters: Vec<Parameter>,
     /// The names of the scalars that it returns, through parameters, too.
     pub outputs: Vec<String>,
     /// Parameters, components of them, or global variables with fixed values.
-    fixed: Vec<Definition>,
+    pub fixed: Vec<Definition>,
     /// Parameters that are functions of columns.
-    defined: Vec<Definition>,
+    pub defined: Vec<Definition>,
     /// Columns that are functions of parameters.
-    derived: Vec<Definition>,
+    pub derived: Vec<Definition>,
     /// The values that it is sampled over.
     pub sampled: Vec<String>,
     /// The inputs of formulas: the derived columns, and what is sampled and in none of them.
     pub columns: Vec<String>,
     /// The most steps of an evaluation.
     pub steps: u64,
-}
-
-#[derive(Clone, Copy, Debug)]
-enum Entry {
-    Function(Handle<Function>),
-    Point(usize),
-}
-
-impl Entry {
-    fn of(self, module: &Module) -> &Function {
-        match self {
-            Entry::Function(handle) => &module.functions[handle],
-            Entry::Point(index) => &module.entry_points[index].function,
-        }
-    }
 }
 
 impl Subject {
@@ -94,159 +80,12 @@ impl Subject {
         Ok(subject)
     }
 
-    fn module(&self) -> &Module {
+    pub fn module(&self) -> &Module {
         &self.source.module
     }
 
-    fn output_names(&self) -> Result<Vec<String>, Error> {
-        let module = self.module();
-        let mut outputs: Vec<Part> = Vec::new();
-        if let Some(result) = &self.entry.of(module).result {
-            let name = plain(&self.name);
-            let found = parts(module, &name, result.ty);
-            let mut found = found.map_err(|reason| self.refused(reason))?;
-            // Members are called as the structure's author did.
-            if let naga::TypeInner::Struct { .. } = module.types[result.ty].inner {
-                for part in &mut found {
-                    let member = part.column.strip_prefix(&format!("{name}_"));
-                    part.column = member.unwrap_or(&part.column).to_owned();
-                }
-            }
-            outputs.extend(found);
-        }
-        let places = self.parameters.iter().filter(|parameter| parameter.role == Role::Place);
-        outputs.extend(places.flat_map(|parameter| parameter.scalars.clone()));
-        if outputs.is_empty() {
-            return Err(self.refused(format!("`{}` returns nothing", self.name)));
-        }
-        let inputs: HashSet<&str> =
-            self.sampled.iter().chain(&self.columns).map(String::as_str).collect();
-        let mut taken = HashSet::new();
-        let name = |part: Part| {
-            let mut name = plain(&part.column);
-            while inputs.contains(name.as_str()) || !taken.insert(name.clone()) {
-                name += "_out";
-            }
-            name
-        };
-        Ok(outputs.into_iter().map(name).collect())
-    }
-
-    fn refused(&self, message: String) -> Error {
+    pub fn refused(&self, message: String) -> Error {
         self.source.error(naga::Span::default(), message)
-    }
-
-    /// Fixes a parameter, a component of one, or a global variable.
-    fn fix(&mut self, text: &str) -> Result<(), Error> {
-        let (name, value) = split(text).map_err(Error::Set)?;
-        let definition = Definition::parse(name, value, Vec::new()).map_err(Error::Set)?;
-        let key = column_name(name);
-        let parts = self.parameters.iter().flat_map(|parameter| &parameter.scalars);
-        if !parts.clone().any(|part| is_part_of(&part.column, &key)) {
-            let known: Vec<&str> = self
-                .parameters
-                .iter()
-                .map(|parameter| parameter.name.as_str())
-                .filter(|name| !name.is_empty())
-                .chain(parts.map(|part| part.column.as_str()))
-                .collect();
-            let hint = did_you_mean(name, known.iter().copied());
-            let known = if known.is_empty() { "none".into() } else { known.join(", ") };
-            let message = format!(
-                "{text}: there is no parameter or uniform `{name}`{hint} (there are: {known})"
-            );
-            return Err(Error::Set(message));
-        }
-        self.fixed.push(definition);
-        Ok(())
-    }
-
-    /// Defines a parameter by columns, or a column by parameters.
-    fn define(&mut self, text: &str) -> Result<(), Error> {
-        let (name, expression) = split(text).map_err(Error::Let)?;
-        let free = free_names(expression);
-        let of_parameter = |name: &str| self.parameters.iter().find(|p| p.name == name);
-        let typed = |name: &String| match of_parameter(name) {
-            None => Ok((name.clone(), "f32".to_owned())),
-            Some(parameter) => match wgsl_type(self.module(), parameter.ty) {
-                Some(ty) => Ok((name.clone(), ty)),
-                None => {
-                    Err(Error::Let(format!("`{text}`: `{name}` is no scalar, vector or matrix")))
-                }
-            },
-        };
-        if of_parameter(name).is_some() {
-            if let Some(other) = free.iter().find(|name| of_parameter(name).is_some()) {
-                let message = format!(
-                    "`{text}`: `{other}` is a parameter; define `{name}` by new names, which become the inputs"
-                );
-                return Err(Error::Let(message));
-            }
-            let arguments = free.iter().map(typed).collect::<Result<_, _>>()?;
-            let definition = Definition::parse(name, expression, arguments).map_err(Error::Let)?;
-            self.defined.push(definition);
-            return Ok(());
-        }
-        if let Some(unknown) = free.iter().find(|name| of_parameter(name).is_none()) {
-            let names = self.parameters.iter().map(|p| p.name.as_str());
-            let hint = did_you_mean(unknown, names.clone());
-            let names: Vec<&str> = names.collect();
-            let message = format!(
-                "`{text}`: neither `{name}` nor `{unknown}` is a parameter{hint} (parameters: {})",
-                names.join(", ")
-            );
-            return Err(Error::Let(message));
-        }
-        let arguments = free.iter().map(typed).collect::<Result<_, _>>()?;
-        self.derived.push(Definition::parse(name, expression, arguments).map_err(Error::Let)?);
-        Ok(())
-    }
-
-    /// Finds what is sampled: names in definitions of parameters, and all components of parameters
-    /// that are not given; those of `out` parameters only if they have a range.
-    fn find_columns(&mut self, ranged: &[String]) -> Result<(), Error> {
-        let mut sampled: Vec<String> = Vec::new();
-        let mut in_derived: HashSet<String> = HashSet::new();
-        for parameter in &self.parameters {
-            let is = |definition: &&Definition| definition.name == parameter.name;
-            if let Some(definition) = self.defined.iter().find(is) {
-                for name in &definition.arguments {
-                    if !sampled.contains(name) {
-                        sampled.push(name.clone());
-                    }
-                }
-                continue;
-            }
-            for part in &parameter.scalars {
-                let is_it =
-                    |fixed: &Definition| is_part_of(&part.column, &column_name(&fixed.name));
-                let has_range = ranged.contains(&plain(&part.column));
-                let is_optional =
-                    matches!(parameter.role, Role::Place | Role::Global(_) | Role::BuiltIn);
-                if self.fixed.iter().any(is_it) || is_optional && !has_range {
-                    continue;
-                }
-                if part.kind != ScalarKind::Float {
-                    let name = &part.column;
-                    let kind =
-                        if part.kind == ScalarKind::Bool { "a truth value" } else { "an integer" };
-                    let value = if part.kind == ScalarKind::Bool { "true" } else { "3" };
-                    return Err(self.refused(format!(
-                        "`{name}` is {kind}, which formulas have not; fix it, as in --set {name}={value}"
-                    )));
-                }
-                let used = self.derived.iter().any(|d| d.arguments.contains(&parameter.name));
-                if used {
-                    in_derived.insert(plain(&part.column));
-                }
-                sampled.push(plain(&part.column));
-            }
-        }
-        let derived = self.derived.iter().map(|definition| definition.name.clone());
-        let rest = sampled.iter().filter(|name| !in_derived.contains(*name)).cloned();
-        self.columns = derived.chain(rest).collect();
-        self.sampled = sampled;
-        Ok(())
     }
 
     /// Evaluates the function in double precision, at a value for each name that is sampled;
@@ -402,75 +241,5 @@ fn one_of<M: Machine>(given: &Value<M>, index: usize, of: usize) -> Result<Scala
         [one] => Ok(*one),
         all if all.len() == of => Ok(all[index]),
         all => Err(format!("{} components are given for {of}", all.len())),
-    }
-}
-
-/// Returns true for the column of a name, or of a component of what it names.
-fn is_part_of(column: &str, key: &str) -> bool {
-    column.strip_prefix(key).is_some_and(|rest| rest.is_empty() || rest.starts_with('_'))
-}
-
-/// Makes a column's name of a name in a shader.
-fn plain(name: &str) -> String {
-    let is_part = |c: char| c.is_ascii_alphanumeric() || c == '_';
-    let name: String = name.chars().map(|c| if is_part(c) { c } else { '_' }).collect();
-    match name.starts_with(|c: char| c.is_ascii_digit()) || name.is_empty() {
-        true => format!("_{name}"),
-        false => name,
-    }
-}
-
-/// Returns the function of this name, or the only one that no other calls.
-fn chosen(source: &Source, name: Option<&str>) -> Result<(Entry, String), Error> {
-    let module = &source.module;
-    let functions = module.functions.iter().map(|(handle, function)| {
-        (Entry::Function(handle), function.name.clone().unwrap_or_default())
-    });
-    let points = module.entry_points.iter().enumerate();
-    let points = points.map(|(index, point)| (Entry::Point(index), point.name.clone()));
-    // SPIR-V from GLSL and HLSL has the types in names: `f(f1;vf3;`; that from Slang a number.
-    let short = |name: &str| {
-        let name = name.split('(').next().unwrap_or(name);
-        let is_numbered = source.numbers_names && name.ends_with("_0");
-        name[..name.len() - 2 * usize::from(is_numbered)].to_owned()
-    };
-    let all: Vec<(Entry, String)> =
-        points.chain(functions).map(|(entry, name)| (entry, short(&name))).collect();
-    let whole = |message: String| Err(source.error(naga::Span::default(), message));
-    if let Some(name) = name {
-        if let Some(found) = all.iter().find(|(_, known)| known == name) {
-            return Ok(found.clone());
-        }
-        let names = || all.iter().map(|(_, name)| name.as_str()).filter(|name| !name.is_empty());
-        let hint = did_you_mean(name, names());
-        let known = names().collect::<Vec<_>>().join(", ");
-        return whole(format!("there is no function `{name}`{hint} (there are: {known})"));
-    }
-    let mut called = HashSet::new();
-    for (entry, _) in &all {
-        calls(&entry.of(module).body, &mut called);
-    }
-    let is_empty = |entry: Entry| {
-        entry.of(module).body.iter().all(|s| matches!(s, Statement::Return { value: None }))
-    };
-    let open: Vec<&(Entry, String)> = all
-        .iter()
-        .filter(|(_, name)| !(source.lacks_main && name == "main"))
-        .filter(|(entry, _)| match entry {
-            Entry::Function(handle) => !called.contains(handle),
-            Entry::Point(_) => !is_empty(*entry),
-        })
-        .collect();
-    match open.as_slice() {
-        [only] => Ok((*only).clone()),
-        [] => whole("it has no function".into()),
-        several => {
-            let names: Vec<&str> = several.iter().map(|(_, name)| name.as_str()).collect();
-            let first = names.first().copied().unwrap_or_default();
-            whole(format!(
-                "it has several functions: {}; say which, as in --entry {first}",
-                names.join(", ")
-            ))
-        }
     }
 }

@@ -1,5 +1,6 @@
 //! Interprets functions of a module: statements, calls, variables.
 
+use super::budget::{MOST_KEPT, MOST_STEPS};
 use super::machine::{Machine, Reason};
 use super::paths::{Leaf, Paths, merged};
 use super::value::{Pointer, Scalar, Value};
@@ -8,16 +9,6 @@ use naga::{
     Statement, SwitchValue, Type, TypeInner,
 };
 
-/// The most steps of one evaluation: expressions, statements, iterations, and scalars of arrays that
-/// are copied. By hand: about ten seconds.
-pub(super) const MOST_STEPS: u64 = 100_000_000;
-/// Fewer scalars are copied in the time of a step. By hand, unmeasured.
-const COPIED_IN_A_STEP: usize = 16;
-/// The most scalars in all variables at a time. By hand: the largest tables of shaders, twice; they
-/// take some 40 MiB.
-const MOST_HELD: usize = 1 << 19;
-/// The most scalars in the variables of all paths at a time. By hand: a third of a gibibyte.
-const MOST_KEPT: usize = 1 << 22;
 /// The most calls within each other. Shading languages have no recursion.
 const DEEPEST_CALL: usize = 64;
 
@@ -82,11 +73,11 @@ pub(super) struct Interpreter<'a, 'm, M: Machine> {
     pub paths: Paths<M>,
     /// The values of the module's constants, as far as they were needed.
     pub constants: Vec<Option<Value<M>>>,
-    steps: u64,
-    most_steps: u64,
+    pub steps: u64,
+    pub most_steps: u64,
     /// The scalars in variables, and those in the variables that paths left behind.
-    held: usize,
-    kept: usize,
+    pub held: usize,
+    pub kept: usize,
     /// The number of blocks and calls within each other.
     depth: usize,
 }
@@ -209,35 +200,6 @@ impl<'a, 'm, M: Machine> Interpreter<'a, 'm, M> {
         value
     }
 
-    fn leave(&mut self) {
-        let left = self.frames.pop();
-        if let Some(frame) = left {
-            let locals: usize = frame.locals.iter().map(Value::size).sum();
-            self.held -= locals + frame.values.iter().flatten().map(weight).sum::<usize>();
-        }
-    }
-
-    /// Keeps the value of an expression of the current call.
-    fn keep(&mut self, handle: Handle<Expression>, value: Value<M>) -> Result<(), Reason> {
-        let new = weight(&value);
-        let old = self.frame().values[handle.index()].replace(value);
-        self.held -= old.as_ref().map_or(0, weight);
-        self.hold_more(new)
-    }
-
-    /// Counts the scalars of a new variable.
-    fn hold(&mut self, value: &Value<M>) -> Result<(), Reason> {
-        self.hold_more(value.size())
-    }
-
-    fn hold_more(&mut self, scalars: usize) -> Result<(), Reason> {
-        self.held += scalars;
-        match self.held > MOST_HELD {
-            true => Err(format!("its variables are of more than {MOST_HELD} numbers")),
-            false => Ok(()),
-        }
-    }
-
     fn enter(&mut self, function: &'a Function, arguments: Vec<Value<M>>) -> Step<()> {
         let values = (0..function.expressions.len()).map(|_| None).collect();
         self.frames.push(Frame { function, arguments, locals: Vec::new(), values });
@@ -260,24 +222,6 @@ impl<'a, 'm, M: Machine> Interpreter<'a, 'm, M> {
     /// Returns the current call.
     pub fn frame(&mut self) -> &mut Frame<'a, M> {
         self.frames.last_mut().expect("a call is under way")
-    }
-
-    fn step(&mut self) -> Result<(), Reason> {
-        self.steps += 1;
-        let most = self.most_steps;
-        match self.steps > most {
-            true => Err(format!("it takes more than {most} steps; a loop may have no end")),
-            false => Ok(()),
-        }
-    }
-
-    /// Takes the steps for copying so many scalars.
-    pub fn copy(&mut self, scalars: usize) -> Result<(), Reason> {
-        if scalars < COPIED_IN_A_STEP {
-            return Ok(());
-        }
-        self.steps += scalars as u64;
-        self.step()
     }
 
     fn block(&mut self, block: &'a Block) -> Step<Flow<M>> {
@@ -436,27 +380,6 @@ impl<'a, 'm, M: Machine> Interpreter<'a, 'm, M> {
             Some(frame) => &mut self.frames[frame].locals[pointer.variable],
             None => &mut self.globals[pointer.variable],
         }
-    }
-
-    pub fn store(&mut self) -> Result<Store<M>, Reason> {
-        self.copy(3 * self.held)?;
-        let locals = self.frames.iter().map(|frame| frame.locals.clone()).collect();
-        Ok(Store { globals: self.globals.clone(), locals })
-    }
-
-    pub fn restore(&mut self, store: &Store<M>) {
-        self.globals.clone_from(&store.globals);
-        for (frame, locals) in self.frames.iter_mut().zip(&store.locals) {
-            frame.locals.clone_from(locals);
-        }
-    }
-}
-
-/// Returns the scalars of a value, if it may be large.
-fn weight<M: Machine>(value: &Value<M>) -> usize {
-    match value {
-        Value::Several(_) => value.size(),
-        _ => 0,
     }
 }
 

@@ -1,7 +1,6 @@
 //! The built-in functions of shading languages. Names and meanings: WGSL, "Numeric built-in
 //! functions"; what only GLSL has: GLSL 4.60 specification, §8.
 
-use super::expression::operation;
 use super::interpreter::Interpreter;
 use super::machine::{Extra, Machine, Reason};
 use super::value::{Scalar, Value};
@@ -161,39 +160,6 @@ impl<M: Machine> Interpreter<'_, '_, M> {
         super::paths::either(&mut *self.machine, is_total, &nothing, &through)
     }
 
-    fn of_matrix(&mut self, function: MathFunction, matrix: &Value<M>) -> Result<Value<M>, Reason> {
-        let Value::Several(columns) = matrix else { return Err(wrong_arguments()) };
-        let columns: Vec<Vec<M::Float>> =
-            columns.iter().map(Value::floats).collect::<Result<_, _>>()?;
-        match function {
-            MathFunction::Transpose => {
-                let row = |i: usize| {
-                    let row: Vec<_> = columns.iter().map(|column| column[i]).collect();
-                    Value::of_floats(&row)
-                };
-                Ok(Value::Several((0..columns[0].len()).map(row).collect()))
-            }
-            MathFunction::Determinant => {
-                Ok(Value::of_floats(&[determinant(&mut *self.machine, &columns)?]))
-            }
-            _ => {
-                let determinant = determinant(&mut *self.machine, &columns)?;
-                let inverse = self.machine.unary(Op::Rcp, determinant)?;
-                let size = columns.len();
-                let mut adjugate = Vec::with_capacity(size);
-                for i in 0..size {
-                    let mut column = Vec::with_capacity(size);
-                    for j in 0..size {
-                        let cofactor = cofactor(&mut *self.machine, &columns, j, i)?;
-                        column.push(self.machine.binary(Op::Mul, cofactor, inverse)?);
-                    }
-                    adjugate.push(Value::of_floats(&column));
-                }
-                Ok(Value::Several(adjugate))
-            }
-        }
-    }
-
     /// Splits numbers: into fraction and whole part, or into significand and exponent.
     fn taken_apart(&mut self, function: MathFunction, x: &Value<M>) -> Result<Value<M>, Reason> {
         if function == MathFunction::Modf {
@@ -213,121 +179,10 @@ impl<M: Machine> Interpreter<'_, '_, M> {
         })?;
         Ok(Value::Several(vec![significand, Value::of(&exponents)]))
     }
-
-    fn of_integers(
-        &mut self,
-        function: MathFunction,
-        arguments: &[Value<M>],
-    ) -> Result<Option<Value<M>>, Reason> {
-        let one = |f: &dyn Fn(u32, bool) -> i64| {
-            arguments[0].map(&mut |scalar| {
-                let signed = matches!(scalar, Scalar::Int(_));
-                Ok(like(scalar, f(scalar.integer()? as u32, signed)))
-            })
-        };
-        let highest = |x: u32| 31 - i64::from(x.leading_zeros());
-        Ok(Some(match function {
-            MathFunction::Abs => {
-                one(&|x, signed| if signed { (x as i32).wrapping_abs().into() } else { x.into() })?
-            }
-            MathFunction::Sign => one(&|x, _| (x as i32).signum().into())?,
-            MathFunction::CountOneBits => one(&|x, _| x.count_ones().into())?,
-            MathFunction::CountLeadingZeros => one(&|x, _| x.leading_zeros().into())?,
-            MathFunction::CountTrailingZeros => one(&|x, _| x.trailing_zeros().into())?,
-            MathFunction::ReverseBits => one(&|x, _| x.reverse_bits().into())?,
-            MathFunction::FirstTrailingBit => {
-                one(&|x, _| if x == 0 { -1 } else { x.trailing_zeros().into() })?
-            }
-            MathFunction::FirstLeadingBit => one(&|x, signed| match signed && (x as i32) < 0 {
-                true => highest(!x),
-                false => highest(x),
-            })?,
-            MathFunction::Min | MathFunction::Max | MathFunction::Clamp => {
-                let least = function == MathFunction::Min;
-                let pick = |a: i64, b: i64, least: bool| if least { a.min(b) } else { a.max(b) };
-                let first = arguments[0].zip(&arguments[1], &mut |a, b| {
-                    Ok(like(a, pick(a.integer()?, b.integer()?, least)))
-                })?;
-                match arguments.get(2) {
-                    Some(high) => {
-                        first.zip(high, &mut |a, b| Ok(like(a, a.integer()?.min(b.integer()?))))?
-                    }
-                    None => first,
-                }
-            }
-            MathFunction::Dot => {
-                let mut sum = 0i64;
-                for (a, b) in arguments[0].scalars()?.iter().zip(arguments[1].scalars()?) {
-                    sum = sum.wrapping_add(a.integer()?.wrapping_mul(b.integer()?));
-                }
-                Value::Scalar(like(arguments[0].scalars()?[0], sum))
-            }
-            MathFunction::ExtractBits => {
-                let (from, count) = bits(&arguments[1], &arguments[2])?;
-                one(&|x, signed| match (count, signed) {
-                    (0, _) => 0,
-                    (_, true) => (((x << (32 - from - count)) as i32) >> (32 - count)).into(),
-                    (_, false) => ((x << (32 - from - count)) >> (32 - count)).into(),
-                })?
-            }
-            MathFunction::InsertBits => {
-                let (from, count) = bits(&arguments[2], &arguments[3])?;
-                let mask = (((1u64 << count) - 1) << from) as u32;
-                arguments[0].zip(&arguments[1], &mut |a, b| {
-                    let (old, new) = (a.integer()? as u32, b.integer()? as u32);
-                    Ok(like(a, i64::from(old & !mask | (new << from) & mask)))
-                })?
-            }
-            MathFunction::Unpack4x8snorm
-            | MathFunction::Unpack4x8unorm
-            | MathFunction::Unpack2x16snorm
-            | MathFunction::Unpack2x16unorm
-            | MathFunction::Unpack2x16float => {
-                let packed = arguments[0].scalar()?.integer()? as u32;
-                let floats: Vec<_> =
-                    unpacked(function, packed).into_iter().map(|v| self.machine.float(v)).collect();
-                Value::of_floats(&floats)
-            }
-            _ => return Ok(None),
-        }))
-    }
 }
 
-fn wrong_arguments() -> Reason {
+pub(super) fn wrong_arguments() -> Reason {
     "a function has other arguments than it takes".into()
-}
-
-/// Makes an integer of the other's type.
-fn like<M: Machine>(scalar: Scalar<M>, value: i64) -> Scalar<M> {
-    match scalar {
-        Scalar::Uint(_) => Scalar::Uint(value as u32),
-        _ => Scalar::Int(value as i32),
-    }
-}
-
-/// Returns an offset and a number of bits that fit into 32.
-fn bits<M: Machine>(offset: &Value<M>, count: &Value<M>) -> Result<(u32, u32), Reason> {
-    let from = offset.scalar()?.integer()?.clamp(0, 32) as u32;
-    let count = count.scalar()?.integer()?.clamp(0, i64::from(32 - from)) as u32;
-    // A shift by 32 would not be one.
-    Ok(if count == 0 { (0, 0) } else { (from, count) })
-}
-
-fn unpacked(function: MathFunction, packed: u32) -> Vec<f64> {
-    let [a, b, c, d] = packed.to_le_bytes();
-    let halves = [packed as u16, (packed >> 16) as u16];
-    let snorm = |value: f64, scale: f64| (value / scale).max(-1.0);
-    match function {
-        MathFunction::Unpack4x8snorm => {
-            [a, b, c, d].map(|byte| snorm((byte as i8).into(), 127.0)).to_vec()
-        }
-        MathFunction::Unpack4x8unorm => [a, b, c, d].map(|byte| f64::from(byte) / 255.0).to_vec(),
-        MathFunction::Unpack2x16snorm => {
-            halves.map(|half| snorm((half as i16).into(), 32767.0)).to_vec()
-        }
-        MathFunction::Unpack2x16unorm => halves.map(|half| f64::from(half) / 65535.0).to_vec(),
-        _ => halves.map(|half| half::f16::from_bits(half).into()).to_vec(),
-    }
 }
 
 /// Functions of floats that are made of operations.
@@ -383,41 +238,34 @@ fn composed<M: Machine>(
     }
 }
 
-/// Expands by the first column.
-fn determinant<M: Machine>(machine: &mut M, columns: &[Vec<M::Float>]) -> Result<M::Float, Reason> {
-    if columns.len() == 1 {
-        return Ok(columns[0][0]);
-    }
-    let mut sum = None;
-    for row in 0..columns.len() {
-        let cofactor = cofactor(machine, columns, 0, row)?;
-        sum = Some(match sum {
-            None => machine.binary(Op::Mul, columns[0][row], cofactor)?,
-            Some(sum) => machine.apply(Op::Mad, [columns[0][row], cofactor, sum, sum])?,
-        });
-    }
-    sum.ok_or_else(wrong_arguments)
-}
-
-fn cofactor<M: Machine>(
-    machine: &mut M,
-    columns: &[Vec<M::Float>],
-    column: usize,
-    row: usize,
-) -> Result<M::Float, Reason> {
-    let others = columns.iter().enumerate().filter(|(index, _)| *index != column);
-    let minor: Vec<Vec<M::Float>> = others
-        .map(|(_, c)| {
-            let rest = c.iter().enumerate().filter(|(index, _)| *index != row);
-            rest.map(|(_, &value)| value).collect()
-        })
-        .collect();
-    if minor.is_empty() {
-        return Ok(machine.float(1.0));
-    }
-    let value = determinant(machine, &minor)?;
-    match (row + column).is_multiple_of(2) {
-        true => Ok(value),
-        false => machine.unary(Op::Neg, value),
-    }
+/// Returns the operation that a function is, where it is one of the table.
+fn operation(function: MathFunction) -> Option<Op> {
+    Some(match function {
+        MathFunction::Abs => Op::Abs,
+        MathFunction::Min => Op::Min,
+        MathFunction::Max => Op::Max,
+        MathFunction::Saturate => Op::Saturate,
+        MathFunction::Cos => Op::Cos,
+        MathFunction::Sin => Op::Sin,
+        MathFunction::Tan => Op::Tan,
+        MathFunction::Tanh => Op::Tanh,
+        MathFunction::Acos => Op::Acos,
+        MathFunction::Asin => Op::Asin,
+        MathFunction::Atan => Op::Atan,
+        MathFunction::Atan2 => Op::Atan2,
+        MathFunction::Floor => Op::Floor,
+        MathFunction::Fract => Op::Fract,
+        MathFunction::Exp => Op::Exp,
+        MathFunction::Exp2 => Op::Exp2,
+        MathFunction::Log => Op::Log,
+        MathFunction::Log2 => Op::Log2,
+        MathFunction::Pow => Op::Pow,
+        MathFunction::Sign => Op::Sign,
+        MathFunction::Fma => Op::Mad,
+        MathFunction::Mix => Op::Lerp,
+        MathFunction::Step => Op::Step,
+        MathFunction::Sqrt => Op::Sqrt,
+        MathFunction::InverseSqrt => Op::Rsqrt,
+        _ => return None,
+    })
 }

@@ -19,18 +19,25 @@
 //! # Ok::<(), lgp::shader::Error>(())
 //! ```
 
+mod budget;
+mod columns;
 mod definition;
+mod depth;
+mod entry;
 mod error;
 mod expression;
 mod external;
 mod front;
 mod function;
 mod glsl;
+mod integers;
 mod interpreter;
 mod language;
 mod machine;
 mod macros;
 mod math;
+mod matrices;
+mod operators;
 mod order;
 mod parameters;
 mod paths;
