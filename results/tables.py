@@ -118,11 +118,13 @@ def functions():
                 if cost + degree not in best or error < best[cost + degree][0]:
                     best[cost + degree] = (error, f"{form}, degree {degree}")
         for cycles, (error, form) in sorted(best.items()):
-            found = min((m for m in members if m["cost"] <= cycles), key=lambda m: m["max_error"])
+            largest = lambda m: m["domain_errors"]["y"]["max"]
+            found = min((m for m in members if m["cost"] <= cycles), key=largest)
             truth = found["verdict"].get("truth", [{}])[0]
             proved = f"{truth['most']:.2e}" if "most" in truth else truth.get("status", "not tried")
-            lines.append(f"| `{name}` | {cycles} | {form} | {error:.2e} | {found['max_error']:.2e} | {proved} |")
+            lines.append(f"| `{name}` | {cycles} | {form} | {error:.2e} | {largest(found):.2e} | {proved} |")
     replace("functions/README.md", "minimax", lines)
 
 
-{"gallery": gallery, "scenes": scenes, "functions": functions}[sys.argv[1]]()
+if __name__ == "__main__":
+    {"gallery": gallery, "scenes": scenes, "functions": functions}[sys.argv[1]]()

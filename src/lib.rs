@@ -14,6 +14,7 @@
 //! | [`printable`], [`suggest`] | text from elsewhere made harmless; the nearest known name |
 //! | [`mod@file`] | files read up to a limit, and written as a whole |
 //! | [`num`] | registers of lanes, and mathematics with the same bits at every width; low-discrepancy points, sums |
+//! | [`quadrature`] | integration: fixed, adaptive, by sampling |
 //! | [`op`] | the one table of operations, and what they mean |
 //! | [`program`] | instructions, verified programs, outer forms, effective code, hashes, formula text |
 //! | [`simplify`] | algebra on programs |
@@ -25,13 +26,13 @@
 //! | [`stability`] | verdicts: what is proved of a formula over its whole domain, or refuted |
 //! | [`archive`] | the Pareto archive |
 //! | [`scene`] | what a use needs of a dataset: ranges, fixed inputs, histograms, combined outputs |
-//! | [`truth`] | functions that can be evaluated anywhere, and where they are sampled |
+//! | [`truth`] | functions that can be evaluated anywhere; where they are sampled, on grids or by a mesh that follows a search; errors over a whole domain |
 //! | [`search`] | problems and methods, islands, variation, fronts |
 //! | [`emit`] | formulas as HLSL, WGSL, GLSL, MSL, Slang, and back; as C, Rust, Python, LaTeX |
 //! | [`wording`] | fronts, verdicts and examinations in words |
 //! | [`shader`] | functions of shaders as truths: read, interpreted, written down as formulas |
 //! | [`run`] | a search under way, from its budget to its fronts; its record and folder; unions, what recurs |
-//! | [`quadrature`], [`microfacet`], [`targets`] | integration, BRDF models, ground truths |
+//! | [`microfacet`], [`targets`] | BRDF models, ground truths |
 //! | [`report`] | plots, maps, the page of a run, spheres |
 //! | [`cli`] | a file a subcommand |
 //!

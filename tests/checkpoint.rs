@@ -9,7 +9,7 @@ use lgp::cost::Profile;
 use lgp::dataset::{Column, Dataset, Split};
 use lgp::fit::Measure;
 use lgp::grammar::Grammar;
-use lgp::run::{Census, Checkpoint, Run, TracePoint, trace_csv};
+use lgp::run::{Census, Checkpoint, Followed, Run, TracePoint, trace_csv};
 use lgp::search::{Goal, Method, Problem, Search};
 use std::path::{Path, PathBuf};
 
@@ -56,7 +56,9 @@ fn written() -> Vec<u8> {
     let mut census = Census::default();
     search.archive().members().iter().for_each(|one| census.count(&one.draft, &names, 0.5));
     let trace = trace_csv(&[TracePoint::of(&search, 0.5)], Measure::Rmse);
-    Checkpoint::bytes(&run, search.state(), &trace, &census)
+    let followed = "(tiles: [(halves: [(axis: 0, upper: false)]), (halves: [(axis: 0, upper: true)])], next: 16, has_begun: true)";
+    let followed: Followed = ron::from_str(followed).unwrap();
+    Checkpoint::bytes(&run, search.state(), &trace, &census, Some(&followed))
 }
 
 fn read(bytes: &[u8]) -> Result<Checkpoint, String> {
@@ -102,8 +104,8 @@ fn a_checkpoint_of_another_version_is_refused_as_such() {
 /// What a report is made of at the end of the search that goes on.
 #[test]
 fn a_trace_that_no_search_wrote_is_refused() {
-    let Checkpoint { run, state, trace, census } = read(&written()).unwrap();
-    let with = |trace: &str| read(&Checkpoint::bytes(&run, &state, trace, &census));
+    let Checkpoint { run, state, trace, census, .. } = read(&written()).unwrap();
+    let with = |trace: &str| read(&Checkpoint::bytes(&run, &state, trace, &census, None));
     assert!(with(&trace).is_ok() && with("").is_ok());
     for other in ["seconds\n", &trace.replace("rmse_5", "max_5"), &(trace.clone() + "1,2\n")] {
         let message = with(other).unwrap_err();

@@ -62,7 +62,7 @@ fn a_generation_that_is_paused_goes_on_as_if_it_never_stopped() {
             let time = Duration::from_micros(50 << (pauses / 8).min(20));
             if !paused.advance_until(&Deadline::NEVER.pausing_in(time)) {
                 pauses += 1;
-                let bytes = Checkpoint::bytes(&run, paused.state(), "", &Census::default());
+                let bytes = Checkpoint::bytes(&run, paused.state(), "", &Census::default(), None);
                 let read = Checkpoint::from_bytes("checkpoint.bin".as_ref(), &bytes).unwrap();
                 paused = Search::resume(problem.clone(), method.clone(), read.state).unwrap();
             }

@@ -228,6 +228,7 @@ fn goes_on_as_if_never_stopped(asked: (Goal, Method)) {
         state: search.state().clone(),
         trace: String::new(),
         census: Census::default(),
+        followed: None,
     };
     let bytes = checkpoint.to_bytes();
     let read = Checkpoint::from_bytes("checkpoint.bin".as_ref(), &bytes).unwrap();

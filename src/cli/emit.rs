@@ -80,7 +80,7 @@ pub fn run(args: &Args, common: &Common) -> Result<(), Failure> {
     let emitted = Emitted {
         language: args.lang.name(),
         cost: member.cost,
-        rmse: member.search_error().rmse,
+        rmse: member.error().rmse,
         formula: &member.formula,
         code: &code,
     };
@@ -214,7 +214,7 @@ fn least(args: &Args, front: &Front) -> String {
         });
         return format!("{cheapest}; ask for less");
     };
-    let error = error_text(best.search_error().of(front.measure));
+    let error = error_text(best.error().of(front.measure));
     let within = args.max_cost.map(|cost| format!(" within {} cycles", cycles_text(cost)));
     format!(
         "the least error there is{} is {error}, at {} cycles; search longer, or ask for less",

@@ -3,7 +3,7 @@
 use super::output::to_stderr;
 use crate::grammar::FileError;
 use crate::import::array;
-use crate::run::{Incompatible, RecordError, SubjectError};
+use crate::run::{FollowError, Incompatible, RecordError, SubjectError};
 use crate::search::SetupError;
 use crate::{dataset, import, program, report, scene, targets};
 use std::io::ErrorKind;
@@ -175,6 +175,12 @@ impl From<report::Error> for Failure {
             report::Error::Plot(error) => Failure::new(Exit::Failed, error),
             error => Failure::new(Exit::Input, error),
         }
+    }
+}
+
+impl From<FollowError> for Failure {
+    fn from(error: FollowError) -> Failure {
+        Failure::new(Exit::Input, error)
     }
 }
 

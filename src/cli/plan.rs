@@ -2,6 +2,7 @@
 
 use super::resume::resumed;
 use super::search::Args;
+use super::truth::truth_of;
 use super::{Common, Failure};
 use crate::cost::Profile;
 use crate::dataset::{Dataset, Split};
@@ -65,10 +66,20 @@ impl Plan {
             .budget(budget(args))
             .guesses(&args.guess)?
             .exhaustive(args.exhaustive)
+            .fixed_samples(args.fixed_samples)
             .of_file(file, subject.whole.hash(), subject.scene.clone())
             .asked_by(gpu, command())
             .kept_in(folder, replaces);
+        let session = following(session, &subject)?;
         Ok(Plan { subject, session })
+    }
+}
+
+/// Lets a session's samples follow it, if they are a function's.
+pub(super) fn following(session: Session, subject: &Subject) -> Result<Session, Failure> {
+    match truth_of(&subject.dataset) {
+        Some(truth) => Ok(session.following(truth)?),
+        None => Ok(session),
     }
 }
 

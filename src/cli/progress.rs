@@ -86,6 +86,7 @@ fn verb(phase: Phase) -> &'static str {
     match phase {
         Phase::Polish => "polishing",
         Phase::PolishForMaximum => "polishing for the maximum error",
+        Phase::Integrate => "errors over the domain",
         Phase::Prove => "verdicts",
         Phase::ProveForMaximum => "verdicts for the maximum error",
     }

@@ -1,6 +1,6 @@
 //! Resumed searches, which take their options from their run.
 
-use super::plan::{Plan, budget, default_folders, requirements, transforms};
+use super::plan::{Plan, budget, default_folders, following, requirements, transforms};
 use super::search::Args;
 use super::{Common, Failure};
 use crate::cost::Profile;
@@ -62,6 +62,7 @@ pub fn resumed(args: &Args, common: &Common) -> Result<Plan, Failure> {
         .budget(budget)
         .guesses(&guesses)?
         .kept_in(folder, false);
+    let session = following(session, &subject)?;
     Ok(Plan { subject, session })
 }
 
@@ -122,6 +123,9 @@ fn difference(
     compare("--loss", args.loss.map(|loss| loss.to_string()), goal.measure.to_string());
     compare("--inputs", args.columns.inputs(), names.inputs.join(","));
     compare("--outputs", args.columns.outputs(), names.outputs.join(","));
+    if args.fixed_samples && !run.fixed_samples {
+        compare("--fixed-samples", Some("given".into()), String::new());
+    }
     let some = |list: &[String]| (!list.is_empty()).then(|| list.join(","));
     compare("--guess", some(&args.guess), run.guesses.join(","));
     if !args.require.is_empty() {

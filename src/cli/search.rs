@@ -81,6 +81,10 @@ pub struct Args {
     /// A formula over the dataset's columns to start from; can be given several times
     #[arg(long, value_name = "FORMULA")]
     pub(super) guess: Vec<String>,
+    /// Keep the samples of a function as they are; otherwise they follow the search to where its
+    /// formulas err most, if the data are a formula's, a shader's or a target's
+    #[arg(long)]
+    pub(super) fixed_samples: bool,
     /// The folder to write the run to [default: runs/NAME, or runs/NAME-2 and so on if that is
     /// taken]
     #[arg(long, value_name = "DIR")]
@@ -107,7 +111,7 @@ pub fn run(args: &Args, common: &Common) -> Result<(), Failure> {
     }
     timings.note("reading");
     let stop = interrupts::watch();
-    let mut session = session.since(timings.start()).until_asked(&stop);
+    let mut session = session.since(timings.start()).until_asked(&stop).compared_with(incumbents);
     session.begin().map_err(|error| match error {
         SetupError::TooMany { .. } => Failure::usage(format!("--exhaustive: {error}")),
         error => error.into(),
@@ -117,15 +121,18 @@ pub fn run(args: &Args, common: &Common) -> Result<(), Failure> {
     timings.note("search");
     let phases = Phases::new(common, &mut timings);
     let outcome = session.finish(&|phase, share| phases.hear(phase, share));
-    let Outcome { run, front, .. } = &outcome;
-    let table = front_table(front, &incumbents, &run.names().outputs);
+    if let Some(reason) = session.take_follow_error() {
+        common.note(&reason.to_string());
+    }
+    let Outcome { run, front, published, .. } = &outcome;
+    let table = front_table(front, published, &run.names().outputs);
     let written = session.write(&outcome, vec![(FRONT_TABLE.to_owned(), table.clone().into())]);
     // What was found is shown even if files could not be written.
     let folder = session.folder().unwrap_or(Path::new("")).to_owned();
     show(common, &outcome, table, &folder)?;
     written?;
     timings.note("files");
-    let report = Report::of(&outcome, subject.dataset, incumbents);
+    let report = Report::of(&outcome, subject.dataset, published.clone());
     if !report.write(&folder, &session.time_left())?.is_whole && !common.quiet {
         let folder = folder.display();
         eprintln!("there was no time for all pictures; `lgp report {folder}` makes them");
@@ -168,6 +175,9 @@ fn search(session: &mut Session, common: &Common) -> Result<(), Failure> {
                 "warning: {warning}\nthe search goes on, but could not be resumed from here"
             ));
             warned = warning;
+        }
+        if let Some(reason) = session.take_follow_error() {
+            common.note(&reason.to_string());
         }
         let Some(progress) = step else { break };
         bar.show(&progress);

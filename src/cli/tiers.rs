@@ -22,7 +22,7 @@ pub fn table(run: &Run, front: &Front) -> String {
             "{name} ({}): {} cycles, error {}: {}\n",
             limits(*tier),
             cycles_text(member.cost),
-            error_text(member.search_error().of(front.measure)),
+            error_text(member.error().of(front.measure)),
             member.formula
         ),
         None => format!("{name} ({}): not met\n", limits(*tier)),

@@ -1,8 +1,9 @@
 //! Functions as data: formulas, and functions of shaders, sampled where a command needs a dataset.
 
 use super::{Common, Exit, Failure};
-use crate::dataset::{Axis, Dataset};
+use crate::dataset::{Axis, Dataset, Function, Origin};
 use crate::shader::{self, Language, Options, Shader};
+use crate::targets::{self, Recipe};
 use crate::truth::{self, Truth, parse_domain};
 use std::path::Path;
 
@@ -117,6 +118,25 @@ impl Sampled {
         };
         Ok(parse_domain(domain)?)
     }
+}
+
+/// Returns the function that data are samples of; none if they are no function's, or only of a part
+/// of it.
+pub fn truth_of(data: &Dataset) -> Option<Truth> {
+    let names = data.names();
+    let truth = match &data.origin {
+        Origin::Target { recipe, .. } => targets::truth(&Recipe::parse(recipe).ok()?)?,
+        Origin::Function { function, domain } => {
+            let axes = parse_domain(domain).ok()?;
+            match function {
+                Function::Formula { text } => Truth::formula(text, &names.outputs, &axes).ok()?,
+                shader => Shader::of_origin(shader, &axes).ok()??.truth(&axes).ok()?,
+            }
+        }
+        _ => return None,
+    };
+    let truth = truth.choose(&names.outputs)?;
+    (truth.inputs() == names.inputs).then_some(truth)
 }
 
 impl From<truth::Error> for Failure {

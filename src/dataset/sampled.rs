@@ -55,6 +55,12 @@ impl Axis {
         value as f32
     }
 
+    /// As [`Axis::at`], but not below what stands for the lower end.
+    pub fn inside(&self, u: f64) -> f32 {
+        let least = self.least.map_or(f32::NEG_INFINITY, |least| least as f32);
+        self.at(u).max(least)
+    }
+
     /// Returns the centres of equal cells.
     pub fn centres(&self, cells: usize) -> Vec<f32> {
         (0..cells).map(|i| self.at((i as f64 + 0.5) / cells as f64)).collect()

@@ -98,6 +98,11 @@ impl Score {
         joint(&self.validation, &self.units)
     }
 
+    /// Returns errors by output, as this has them, over all outputs.
+    pub fn joint(&self, errors: &[OutputError]) -> OutputError {
+        joint(errors, &self.units)
+    }
+
     /// Returns true if the program is finite on every sample.
     pub fn is_finite(&self) -> bool {
         self.search.iter().chain(&self.validation).all(|e| e.rmse.is_finite() && e.max.is_finite())

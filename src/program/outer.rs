@@ -34,6 +34,11 @@ impl Outer {
         self.holes
     }
 
+    /// Returns the number of its constants, the last of what [`Outer::append`] returns.
+    pub fn constants(&self) -> usize {
+        self.program.consts.len()
+    }
+
     /// Fills the holes with the outputs of a child, which reads the inputs. The child's
     /// instructions and constants come first and keep their indices.
     ///

@@ -17,8 +17,7 @@ pub fn comparison(folders: &[PathBuf]) -> Result<String, Error> {
         let run = load_run(folder)?;
         let front = load_front(folder, &run, false)?;
         let members = front.members.iter().map(|member| {
-            let errors =
-                measures(&run).into_iter().map(|measure| member.search_error().of(measure));
+            let errors = measures(&run).into_iter().map(|measure| member.error().of(measure));
             [member.cost].into_iter().chain(errors).collect()
         });
         let compared = ComparedRun {

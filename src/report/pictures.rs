@@ -60,7 +60,8 @@ pub fn write_plots(
     incumbents: &[ScoredIncumbent],
 ) -> Result<(), Error> {
     let measure = front.measure;
-    let error = |member: &FrontMember| member.search_error().of(measure);
+    let error = |member: &FrontMember| member.error().of(measure);
+    let place = if front.is_integrated() { "over the domain" } else { "on the search split" };
     let point = |member: &FrontMember| (member.cost, error(member));
     let front: Vec<_> = front.members.iter().map(point).collect();
     let incumbents: Vec<_> = incumbents
@@ -72,7 +73,7 @@ pub fn write_plots(
         title: &format!("{}: {}", run.name, names.outputs.join(", ")),
         subtitle: &format!("{} · {}", run::domains(&run.inputs), run::seeds(run)),
         x_label: &format!("GPU cycles ({})", run.gpu),
-        y_label: &format!("{} on the search split", axis_title(measure)),
+        y_label: &format!("{} {place}", axis_title(measure)),
         front: &front,
         incumbents: &incumbents,
         theme: Theme::Light,
@@ -113,11 +114,11 @@ fn write_convergence(report: &Report, trace: &Trace, folder: &Path) -> Result<()
 fn maps(report: &Report, dataset: &Dataset, knee: &FrontMember) -> Option<Maps> {
     let plane = Plane::of(&dataset.search)?;
     let inputs = dataset.inputs.len();
-    let rmse = |known: &&ScoredIncumbent| known.member.search_error().rmse;
+    let rmse = |known: &&ScoredIncumbent| known.member.error().rmse;
     let finite = report.published.iter().filter(|known| rmse(known).is_finite());
     let best = finite.min_by(|a, b| rmse(a).total_cmp(&rmse(b)));
     let described = |name: &str, member: &FrontMember| {
-        let (cycles, error) = (cycles_text(member.cost), error_text(member.search_error().rmse));
+        let (cycles, error) = (cycles_text(member.cost), error_text(member.error().rmse));
         [name.to_owned(), format!("{cycles} cycles, RMSE {error}")]
     };
     let shown: Vec<([String; 2], &FrontMember)> = best

@@ -1,13 +1,13 @@
 //! `checkpoint.bin`: all that a search needs to go on, in one file, so that its parts are always of
 //! one moment.
 //!
-//! A line of text says which program wrote it, as `LGPSTATE6 lgp 0.1.0`; then come the parts, in
+//! A line of text says which program wrote it, as `LGPSTATE8 lgp 0.1.0`; then come the parts, in
 //! postcard's encoding, and a checksum of all before it. The encoding does not describe itself, and
 //! random streams and rules of a search may change between versions, so a checkpoint is read only
 //! by the version that wrote it, and by [`LAYOUT`] alone.
 
 use super::folder::read_bytes;
-use super::{Census, RecordError, Run, Trace, trace_csv};
+use super::{Census, Followed, RecordError, Run, Trace, trace_csv};
 use crate::fit::Measure;
 use crate::search::State;
 use serde::{Deserialize, Serialize};
@@ -15,7 +15,7 @@ use std::path::Path;
 
 /// The layout's number, raised whenever what is serialised of a search changes:
 /// `tests/checkpoint.rs` tells.
-const LAYOUT: u32 = 7;
+const LAYOUT: u32 = 8;
 
 const MAGIC: &str = "LGPSTATE";
 
@@ -34,14 +34,16 @@ pub struct Checkpoint {
     pub trace: String,
     /// The census of its formulas so far.
     pub census: Census,
+    /// The samples that follow it, if they do.
+    pub followed: Option<Followed>,
 }
 
 /// The parts after the line of text; the run is RON, which can leave out and fill in fields.
 #[derive(Serialize)]
-struct Written<'a>(&'a str, &'a str, &'a Census, &'a State);
+struct Written<'a>(&'a str, &'a str, &'a Census, &'a State, Option<&'a Followed>);
 
 #[derive(Deserialize)]
-struct Read(String, String, Census, State);
+struct Read(String, String, Census, State, Option<Followed>);
 
 fn first_line() -> String {
     format!("{MAGIC}{LAYOUT} lgp {}\n", env!("CARGO_PKG_VERSION"))
@@ -49,9 +51,15 @@ fn first_line() -> String {
 
 impl Checkpoint {
     /// Returns the content of `checkpoint.bin`; `trace` is the text of `trace.csv`.
-    pub fn bytes(run: &Run, state: &State, trace: &str, census: &Census) -> Vec<u8> {
+    pub fn bytes(
+        run: &Run,
+        state: &State,
+        trace: &str,
+        census: &Census,
+        followed: Option<&Followed>,
+    ) -> Vec<u8> {
         let mut bytes = first_line().into_bytes();
-        let body = Written(&run.to_ron(), trace, &census.clone().pruned(), state);
+        let body = Written(&run.to_ron(), trace, &census.clone().pruned(), state, followed);
         bytes.extend(postcard::to_allocvec(&body).expect("plain data"));
         let checksum = blake3::hash(&bytes);
         bytes.extend(checksum.as_bytes());
@@ -60,8 +68,8 @@ impl Checkpoint {
 
     /// Returns the content of the file that this was read from.
     pub fn to_bytes(&self) -> Vec<u8> {
-        let Checkpoint { run, state, trace, census } = self;
-        Checkpoint::bytes(run, state, trace, census)
+        let Checkpoint { run, state, trace, census, followed } = self;
+        Checkpoint::bytes(run, state, trace, census, followed.as_ref())
     }
 
     /// Reads the content of a `checkpoint.bin` at `path`, and checks all of it.
@@ -88,7 +96,7 @@ impl Checkpoint {
                 first_line().trim_end()
             )));
         };
-        let (Read(run, trace, census, state), rest) =
+        let (Read(run, trace, census, state, followed), rest) =
             postcard::take_from_bytes(body).map_err(|error| refuse(error.to_string()))?;
         let checked = || -> Result<Run, String> {
             let run = Run::from_ron(&run).map_err(|(_, reason)| format!("its run: {reason}"))?;
@@ -102,7 +110,7 @@ impl Checkpoint {
         };
         let run =
             checked().map_err(|reason| refuse(format!("not what a search writes: {reason}")))?;
-        Ok(Checkpoint { run, state, trace, census })
+        Ok(Checkpoint { run, state, trace, census, followed })
     }
 
     /// Reads `checkpoint.bin` of a run's folder.

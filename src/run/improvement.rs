@@ -13,6 +13,11 @@ impl Improvement {
     /// The relative growth of the hypervolume that counts as an improvement. By hand, unmeasured.
     const ENOUGH: f64 = 1e-3;
 
+    /// Compares from now on with what other samples have left of the hypervolume.
+    pub fn compare_with(&mut self, hypervolume: f64) {
+        self.hypervolume = hypervolume;
+    }
+
     /// Returns true if nothing has improved for long: ten seconds, and a third of the time. Both by
     /// hand, unmeasured.
     pub fn stalled(&mut self, point: &TracePoint) -> bool {

@@ -8,6 +8,7 @@ use crate::fit::Measure;
 use crate::program::{Names, parse};
 use crate::search::{Front, FrontMember};
 use crate::stability::VerdictRecord;
+use crate::truth::DomainError;
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 use std::path::Path;
@@ -29,6 +30,9 @@ pub struct MemberRecord {
     pub errors: BTreeMap<String, OutputError>,
     /// The errors by output, on the validation split.
     pub validation_errors: BTreeMap<String, OutputError>,
+    /// The errors over the whole domain, by output, if they were integrated.
+    #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
+    pub domain_errors: BTreeMap<String, DomainError>,
     /// The verdict.
     #[serde(default)]
     pub verdict: VerdictRecord,
@@ -39,17 +43,18 @@ pub struct MemberRecord {
 impl MemberRecord {
     /// Records a member.
     pub fn new(member: &FrontMember, names: &Names) -> MemberRecord {
-        let by_output = |errors: &[OutputError]| {
+        fn by_output<E: Copy>(names: &Names, errors: &[E]) -> BTreeMap<String, E> {
             names.outputs.iter().cloned().zip(errors.iter().copied()).collect()
-        };
+        }
         MemberRecord {
             cost: member.cost,
             registers: member.registers,
             rmse: member.search_error().rmse,
             max_error: member.search_error().max,
             validation: member.validation_error(),
-            errors: by_output(&member.score.search),
-            validation_errors: by_output(&member.score.validation),
+            errors: by_output(names, &member.score.search),
+            validation_errors: by_output(names, &member.score.validation),
+            domain_errors: by_output(names, &member.domain),
             verdict: member.verdict.clone(),
             formula: member.formula.clone(),
         }
@@ -58,14 +63,14 @@ impl MemberRecord {
     fn into_member(self, run: &Run) -> Result<FrontMember, String> {
         let names = &run.names();
         let program = parse(&self.formula, names).map_err(|error| error.to_string())?;
-        let errors = |map: &BTreeMap<String, OutputError>| {
+        fn errors<E: Copy>(names: &Names, map: &BTreeMap<String, E>) -> Result<Vec<E>, String> {
             let of = |name: &String| map.get(name).copied();
-            let errors: Option<Vec<_>> = names.outputs.iter().map(of).collect();
+            let errors: Option<Vec<E>> = names.outputs.iter().map(of).collect();
             errors.ok_or_else(|| "an output's errors are missing".to_owned())
-        };
+        }
         let score = Score {
-            search: errors(&self.errors)?,
-            validation: errors(&self.validation_errors)?,
+            search: errors(names, &self.errors)?,
+            validation: errors(names, &self.validation_errors)?,
             units: output_units(&run.outputs),
         };
         let member = FrontMember {
@@ -73,6 +78,10 @@ impl MemberRecord {
             cost: self.cost,
             registers: self.registers,
             score,
+            domain: match self.domain_errors.is_empty() {
+                true => Vec::new(),
+                false => errors(names, &self.domain_errors)?,
+            },
             verdict: self.verdict,
             formula: self.formula,
         };

@@ -161,6 +161,7 @@ mod tests {
                 cost,
                 registers: None,
                 score: Score { search: errors.clone(), validation: errors, units: vec![1.0] },
+                domain: Vec::new(),
                 verdict: VerdictRecord::default(),
                 formula: formula.into(),
             }

@@ -28,6 +28,7 @@ mod checkpoint;
 mod checks;
 mod error;
 mod folder;
+mod following;
 mod improvement;
 mod journal;
 mod member;
@@ -47,6 +48,7 @@ pub use folder::{
     CHECKPOINT, FRONT_TABLE, Folder, Holding, front_files, in_the_way, load_front, load_run,
     load_trace,
 };
+pub use following::{FollowError, Followed};
 pub use member::MemberRecord;
 pub use merge::{Incompatible, merge};
 pub use original::ORIGINAL;

@@ -62,6 +62,9 @@ pub struct Run {
     /// The cycles up to which all formulas were to be tried.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub exhaustive: Option<f64>,
+    /// True if the samples of a function were to stay as they were.
+    #[serde(default, skip_serializing_if = "std::ops::Not::not")]
+    pub fixed_samples: bool,
     /// The limits of its time and generations.
     #[serde(default)]
     pub budget: Budget,

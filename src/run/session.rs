@@ -1,15 +1,22 @@
 //! A search under way, with its budget: from its start to both fronts.
 
+use super::following::Following;
 use super::improvement::Improvement;
 use super::journal::Journal;
 use super::record::machine;
-use super::{Budget, Census, Checkpoint, Folder, RecordError, Run, Timetable, TracePoint, snippet};
+use super::{
+    Budget, Census, Checkpoint, Folder, FollowError, Followed, RecordError, Run, Timetable,
+    TracePoint, snippet,
+};
 use crate::deadline::{Deadline, Stop};
 use crate::emit::Language;
 use crate::fit::Measure;
 use crate::program::{Draft, ParseError, parse};
 use crate::scene::Scene;
-use crate::search::{Enumeration, Front, FrontMember, Method, Problem, Search, SetupError, Work};
+use crate::search::{
+    Enumeration, Front, FrontMember, Method, Problem, ScoredIncumbent, Search, SetupError, Work,
+};
+use crate::truth::Truth;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::time::{Duration, Instant};
@@ -57,6 +64,12 @@ pub struct Session {
     journal: Journal,
     kept: Option<Kept>,
     warning: Option<RecordError>,
+    /// The samples of a resumed run, before their truth is known.
+    followed: Option<Followed>,
+    following: Option<Following>,
+    /// Formulas to compare with.
+    published: Vec<ScoredIncumbent>,
+    follow_error: Option<FollowError>,
 }
 
 /// The folder that a session is written to.
@@ -86,6 +99,8 @@ pub enum Phase {
     Polish,
     /// The constants of the front in maximum error are fitted.
     PolishForMaximum,
+    /// The errors of both over the whole domain are integrated.
+    Integrate,
     /// Verdicts on the front.
     Prove,
     /// Verdicts on that front.
@@ -101,6 +116,8 @@ pub struct Outcome {
     pub front: Front,
     /// The front in maximum error, constants fitted for that.
     pub minimax: Front,
+    /// What [`Session::compared_with`] was given.
+    pub published: Vec<ScoredIncumbent>,
     /// The text of `trace.csv`.
     pub trace: String,
     /// The census of its formulas.
@@ -138,7 +155,7 @@ impl Session {
         checkpoint: Checkpoint,
     ) -> Result<Session, SetupError> {
         let problem = problem.into();
-        let Checkpoint { mut run, state, trace, census } = checkpoint;
+        let Checkpoint { mut run, state, trace, census, followed } = checkpoint;
         (run.threads, run.machine) = (rayon::current_num_threads(), machine());
         let method = run.method.clone();
         if state.counts().considered == 0 {
@@ -149,7 +166,7 @@ impl Session {
         let search = Search::resume(problem, method, state)?;
         let before = run.seconds;
         let session = Session::with(search, run, Journal::resumed(trace, census));
-        Ok(Session { before, ..session })
+        Ok(Session { before, followed, ..session })
     }
 
     fn with(search: Search, run: Run, journal: Journal) -> Session {
@@ -166,6 +183,10 @@ impl Session {
             journal,
             kept: None,
             warning: None,
+            followed: None,
+            following: None,
+            published: Vec::new(),
+            follow_error: None,
         }
     }
 
@@ -193,6 +214,12 @@ impl Session {
         self
     }
 
+    /// Records that the samples stay as they are, whatever they are samples of.
+    pub fn fixed_samples(mut self, fixed: bool) -> Session {
+        self.run.fixed_samples = fixed;
+        self
+    }
+
     /// Records where the data came from: a file, its hash, the scene that it was cut to.
     pub fn of_file(mut self, path: PathBuf, hash: String, scene: Option<Scene>) -> Session {
         (self.run.dataset, self.run.dataset_hash, self.run.scene) = (path, hash, scene);
@@ -202,6 +229,34 @@ impl Session {
     /// Records the name that the GPU profile was asked for by, and the command.
     pub fn asked_by(mut self, gpu: &str, command: Vec<String>) -> Session {
         (self.run.gpu, self.run.command) = (gpu.to_owned(), command);
+        self
+    }
+
+    /// Lets the samples follow the search: they are chosen anew, now and then, where the formulas
+    /// of its archive err most. The truth has the dataset's columns. Nothing follows a search by
+    /// weights that somebody gave.
+    ///
+    /// # Errors
+    /// If the samples that a resumed run had cannot be made again.
+    pub fn following(mut self, truth: Truth) -> Result<Session, FollowError> {
+        let problem = self.search.problem();
+        if !problem.may_be_sampled_elsewhere() {
+            return Ok(self);
+        }
+        if self.run.fixed_samples {
+            self.following = Some(Following::never(truth, problem.dataset()));
+            return Ok(self);
+        }
+        self.following = Some(match self.followed.take() {
+            Some(followed) => Following::resumed(truth, followed, &mut self.search)?,
+            None => Following::new(truth, problem.dataset()),
+        });
+        Ok(self)
+    }
+
+    /// Measures published formulas as those that are found, for [`Outcome::published`].
+    pub fn compared_with(mut self, published: Vec<ScoredIncumbent>) -> Session {
+        self.published = published;
         self
     }
 
@@ -244,6 +299,11 @@ impl Session {
         self.warning.take()
     }
 
+    /// Returns, once, why the samples follow the search no longer.
+    pub fn take_follow_error(&mut self) -> Option<FollowError> {
+        self.follow_error.take()
+    }
+
     /// Returns the time that is left for what is made of the outcome.
     pub fn time_left(&self) -> Deadline {
         self.times.as_ref().map_or(Deadline::NEVER, Timetable::writing)
@@ -261,11 +321,18 @@ impl Session {
         let rows = data.search.rows() + data.validation.rows();
         let left = |time: f64| Duration::from_secs_f64((time - self.before).max(0.0));
         let time = self.run.budget.time().map(left);
-        let times = Timetable::new(self.start, time, rows, &self.stop);
+        let mut times = Timetable::new(self.start, time, rows, &self.stop);
+        if let Some(following) = self.following.as_ref().filter(|_| time.is_some()) {
+            times.integrating_takes(following.integrating_takes());
+        }
         self.improvement = (self.run.budget == Budget::default()).then(Improvement::default);
         let (starting, searching) = (times.starting(), times.search());
         self.times = Some(times);
         if self.before > 0.0 {
+            if self.followed.take().is_some() {
+                // Without the truth it goes on with the dataset's own rows.
+                self.search.judge_anew(&searching.moment_alone());
+            }
             return Ok(());
         }
         self.checkpoint();
@@ -294,8 +361,9 @@ impl Session {
         if self.is_over || is_done || deadline.is_past() {
             return Ok(None);
         }
+        self.follow(&deadline);
         self.search.advance_until(&deadline.pausing_in(PAUSE));
-        let point = TracePoint::of(&self.search, self.before + times.seconds());
+        let point = TracePoint::of(&self.search, self.seconds());
         let stalled = |improvement: &mut Improvement| improvement.stalled(&point);
         self.is_over = self.improvement.as_mut().is_some_and(stalled);
         self.note(&point);
@@ -304,6 +372,18 @@ impl Session {
         }
         let share = budget.share(point.seconds, self.search.generation());
         Ok(Some(Progress { point, measure: self.search.problem().goal().measure, share }))
+    }
+
+    /// Chooses the samples anew, if that is due.
+    fn follow(&mut self, deadline: &Deadline) {
+        let due = |following: &&mut Following| following.is_due(&self.search);
+        let Some(following) = self.following.as_mut().filter(due) else { return };
+        if let Err(error) = following.follow(&mut self.search, deadline) {
+            self.follow_error = Some(error);
+        }
+        if let Some(improvement) = &mut self.improvement {
+            improvement.compare_with(self.search.hypervolume());
+        }
     }
 
     /// Notes the state; writes a checkpoint now and then.
@@ -343,7 +423,9 @@ impl Session {
         kept.last_checkpoint = Instant::now();
         let trace = self.journal.trace(self.run.goal.measure);
         let state = self.search.state();
-        let bytes = Checkpoint::bytes(&self.run, state, &trace, &self.journal.census);
+        let followed = self.following.as_ref().map(Following::followed);
+        let census = &self.journal.census;
+        let bytes = Checkpoint::bytes(&self.run, state, &trace, census, followed.as_ref());
         if kept.replaces {
             kept.folder.begin_anew(&bytes)?;
             kept.replaces = false;
@@ -367,6 +449,14 @@ impl Session {
         let mut minimax = heard(hear, Phase::PolishForMaximum, times.polishing(), |work| {
             Front::polished_in(search, Measure::Max, &front, work)
         });
+        let mut published = self.published.clone();
+        if let Some(following) = &self.following {
+            heard(hear, Phase::Integrate, times.integrating(), |work| {
+                let integrated =
+                    following.integrate(&mut front, &mut minimax, &mut published, work);
+                self.follow_error = integrated.err();
+            });
+        }
         let (questions, names) = (search.problem().questions(), search.problem().dataset().names());
         heard(hear, Phase::Prove, times.judging(), |work| {
             front.judge_until(&questions, &names, &|| work.deadline.is_past());
@@ -383,6 +473,7 @@ impl Session {
             run: self.run.clone(),
             front,
             minimax,
+            published,
             trace: self.journal.trace(self.run.goal.measure),
             census: self.journal.census.clone(),
             archived: self.search.archive().members().len(),

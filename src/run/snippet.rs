@@ -9,6 +9,7 @@ use crate::num::Interval;
 use crate::program::shortest;
 use crate::search::FrontMember;
 use crate::stability::half_loss;
+use crate::truth::DomainError;
 use crate::wording::examination::at_most;
 use crate::wording::{cycles_text, error_text, number_text, title, verdict_lines};
 use std::collections::BTreeSet;
@@ -50,26 +51,39 @@ pub fn half_snippet(
 /// Returns the comment above a member, as lines.
 pub fn header(run: &Run, member: &FrontMember) -> Vec<String> {
     let names = run.names();
-    let (search, validation) = (member.search_error(), member.validation_error());
     let mut header = vec![
         format!("{} → {}", names.inputs.join(", "), names.outputs.join(", ")),
         format!("data: {} ({}), {}, lgp {}", run.name, run.dataset_hash, seeds(run), run.version),
         format!("domain: {}", domains(&run.inputs)),
         cost_line(member, run),
-        format!("error: {} on the search split", described(search, run.goal.measure)),
-        format!("       {} on the validation split", described(validation, run.goal.measure)),
     ];
+    header.extend(error_lines(run, member));
     if let Some(scene) = &run.scene {
         header.insert(2, format!("scene: {}: {}", scene.name, scene.summary()));
     }
     if names.outputs.len() > 1 {
-        for (output, error) in names.outputs.iter().zip(&member.score.search) {
+        for (output, error) in names.outputs.iter().zip(&member.errors()) {
             header.push(format!("       {output}: {}", described(*error, run.goal.measure)));
         }
     }
     header.extend(verdict_lines(&member.verdict));
     header.push(emit::formula_line(&member.formula));
     header
+}
+
+/// Returns a line for the error over the whole domain, if it was integrated, else for each split.
+fn error_lines(run: &Run, member: &FrontMember) -> Vec<String> {
+    if let Some(error) = member.domain_error().filter(|_| member.is_integrated(run.goal.measure)) {
+        let DomainError { rmse, rmse_within, max, max_within } = error;
+        let [rmse, within, max, above] = [rmse, rmse_within, max, max_within].map(error_text);
+        let line = format!("error: RMSE {rmse} ± {within}, max {max} + {above} over the domain");
+        return vec![line];
+    }
+    let (search, validation) = (member.search_error(), member.validation_error());
+    vec![
+        format!("error: {} on the search split", described(search, run.goal.measure)),
+        format!("       {} on the validation split", described(validation, run.goal.measure)),
+    ]
 }
 
 /// Returns the seed of a search, or those of a union.

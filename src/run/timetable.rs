@@ -11,6 +11,8 @@ use std::time::{Duration, Instant};
 struct Shares {
     total: f64,
     rehearsal: Rehearsal,
+    /// Seconds to integrate errors over the domain.
+    integration: f64,
     /// Seconds for files and pictures.
     writing: f64,
 }
@@ -18,9 +20,11 @@ struct Shares {
 /// The share of the time for the first formulas.
 const STARTING: f64 = 0.25;
 
-/// The largest shares of the time for all that follows the search, for verdicts, and for files.
+/// The largest shares of the time for all that follows the search, for verdicts, for
+/// the integration of errors, and for files.
 const MAX_FINISHING: f64 = 0.5;
-const MAX_JUDGING: f64 = 0.2;
+const MAX_JUDGING: f64 = 0.15;
+const MAX_INTEGRATING: f64 = 0.08;
 const MAX_WRITING: f64 = 0.25;
 
 /// The share of the time for the front in maximum error; at most a second and so many times what
@@ -42,8 +46,12 @@ impl Shares {
     }
 
     /// Returns when verdicts of both fronts begin.
-    fn polishing_ends(&self) -> f64 {
+    fn integrating_ends(&self) -> f64 {
         self.judging_ends() - (2.0 * self.rehearsal.judge).min(MAX_JUDGING * self.total)
+    }
+
+    fn polishing_ends(&self) -> f64 {
+        self.integrating_ends() - self.integration.min(MAX_INTEGRATING * self.total)
     }
 
     fn search_ends(&self) -> f64 {
@@ -73,6 +81,7 @@ impl Timetable {
         let shares = |total: Duration| Shares {
             total: total.as_secs_f64(),
             rehearsal: Rehearsal::default(),
+            integration: 0.0,
             writing: WRITING + WRITING_A_MILLION_ROWS * rows as f64 * 1e-6,
         };
         Timetable {
@@ -88,6 +97,13 @@ impl Timetable {
     /// Returns the seconds since the run began.
     pub fn seconds(&self) -> f64 {
         self.start.elapsed().as_secs_f64()
+    }
+
+    /// Keeps so many seconds for integrating errors over the domain.
+    pub fn integrating_takes(&mut self, seconds: f64) {
+        if let Some(shares) = &mut self.shares {
+            shares.integration = seconds;
+        }
     }
 
     /// Returns the deadline of the first formulas.
@@ -127,6 +143,11 @@ impl Timetable {
         self.until(&self.finishing, Shares::polishing_ends)
     }
 
+    /// Returns the deadline of the integration of errors.
+    pub fn integrating(&self) -> Deadline {
+        self.until(&self.finishing, Shares::integrating_ends)
+    }
+
     /// Returns the deadline of verdicts.
     pub fn judging(&self) -> Deadline {
         self.until(&self.finishing, Shares::judging_ends)
@@ -153,7 +174,7 @@ mod tests {
     use super::*;
 
     fn shares(total: f64, polish: f64, judge: f64) -> Shares {
-        Shares { total, rehearsal: Rehearsal { polish, judge }, writing: 1.0 }
+        Shares { total, rehearsal: Rehearsal { polish, judge }, integration: 1.0, writing: 1.0 }
     }
 
     #[test]
@@ -161,8 +182,13 @@ mod tests {
         for total in [0.0, 0.1, 1.0, 10.0, 60.0, 3600.0] {
             for (polish, judge) in [(0.0, 0.0), (0.5, 2.0), (100.0, 0.0), (0.0, 1e6), (1e6, 1e6)] {
                 let shares = shares(total, polish, judge);
-                let ends =
-                    [shares.search_ends(), shares.polishing_ends(), shares.judging_ends(), total];
+                let ends = [
+                    shares.search_ends(),
+                    shares.polishing_ends(),
+                    shares.integrating_ends(),
+                    shares.judging_ends(),
+                    total,
+                ];
                 assert!(ends.is_sorted(), "{shares:?}: {ends:?}");
                 assert!(ends[0] >= 0.5 * total, "half of the time is the search's");
             }
@@ -173,8 +199,9 @@ mod tests {
     fn what_finishing_takes_is_kept_for_it() {
         let shares = shares(60.0, 3.0, 1.0);
         assert_eq!(shares.judging_ends(), 59.0);
-        assert_eq!(shares.polishing_ends(), 57.0);
-        assert!((shares.search_ends() - (54.0 - SECOND_FRONT * 60.0)).abs() < 1e-9);
+        assert_eq!(shares.integrating_ends(), 57.0);
+        assert_eq!(shares.polishing_ends(), 56.0);
+        assert!((shares.search_ends() - (53.0 - SECOND_FRONT * 60.0)).abs() < 1e-9);
         let hour = super::tests::shares(3600.0, 1.0, 1.0);
         assert!(hour.search_ends() > 3560.0, "{}", hour.search_ends());
     }

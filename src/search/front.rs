@@ -9,6 +9,7 @@ use crate::fit::Measure;
 use crate::program::{Names, Program, parse, print};
 use crate::simplify::folded;
 use crate::stability::{Limits, Questions, Rounding, Stopped, Verdict, VerdictRecord};
+use crate::truth::DomainError;
 use rayon::prelude::*;
 
 /// A formula of the front.
@@ -22,6 +23,8 @@ pub struct FrontMember {
     pub registers: Option<u32>,
     /// Its errors on both splits.
     pub score: Score,
+    /// Its errors over the whole domain, by output, if they were integrated ([`super::integrate`]).
+    pub domain: Vec<DomainError>,
     /// Its verdict; unjudged until [`FrontMember::judge`].
     pub verdict: VerdictRecord,
     /// Its text.
@@ -46,7 +49,8 @@ impl FrontMember {
         let score = Score::of(&program, dataset, &mut Evaluator::default());
         let Cost { cycles, registers, .. } = profile.cost(&program);
         let verdict = VerdictRecord::default();
-        FrontMember { program, cost: cycles, registers: Some(registers), score, verdict, formula }
+        let (registers, domain) = (Some(registers), Vec::new());
+        FrontMember { program, cost: cycles, registers, score, domain, verdict, formula }
     }
 
     /// Judges the formula, unless it is judged already.
@@ -65,10 +69,12 @@ impl FrontMember {
             && (self.cost < other.cost || mine < other_error)
     }
 
-    /// Returns the error that decides about a front: that on the validation split, which formulas
-    /// are not fitted to; for the maximum error that on the search split, where it was made small.
+    /// Returns the error that decides about a front: that over the whole domain, if it is known;
+    /// else that on the validation split, which formulas are not fitted to; for the maximum error
+    /// that on the search split, where it was made small.
     pub fn deciding_error(&self, measure: Measure) -> f64 {
         match measure {
+            _ if self.is_integrated(measure) => self.error().of(measure),
             Measure::Max => self.search_error().max,
             _ => self.validation_error().of(measure),
         }
@@ -166,13 +172,14 @@ impl Front {
         Front { measure, members }
     }
 
-    /// Returns the cheapest member whose error on the search split is at most `max_error`, or the
+    /// Returns the cheapest member whose [`FrontMember::error`] is at most `max_error`, or the
     /// most accurate one if that is not given, of those that cost at most `max_cost` cycles.
     pub fn within(&self, max_cost: Option<f64>, max_error: Option<f64>) -> Option<&FrontMember> {
         let (cost, error) = (max_cost.unwrap_or(f64::INFINITY), max_error.unwrap_or(f64::INFINITY));
-        let mut suitable = self.members.iter().filter(|member| {
-            member.cost <= cost && member.search_error().of(self.measure) <= error
-        });
+        let mut suitable = self
+            .members
+            .iter()
+            .filter(|member| member.cost <= cost && member.error().of(self.measure) <= error);
         // Errors fall along the front: the cheapest is first, the most accurate last.
         if max_error.is_some() { suitable.next() } else { suitable.next_back() }
     }

@@ -313,6 +313,20 @@ impl Island {
         });
     }
 
+    /// Fits its individuals to the samples on which candidates race now, and forgets which
+    /// structures were tried on others. Those that the deadline leaves no time for keep their
+    /// losses.
+    pub fn judge_anew(&mut self, problem: &Problem, deadline: &Deadline) {
+        self.seen.fill(0);
+        self.scratch.fitter.deadline = deadline.moment_alone();
+        for mut one in self.population.take() {
+            if !deadline.is_past() {
+                one.loss = self.scratch.loss(&mut one.draft, problem, &self.race, self.by_maximum);
+            }
+            self.population.offer(one);
+        }
+    }
+
     /// Offers another island's best to the population.
     pub fn immigrate(&mut self, migrants: Vec<Individual>) {
         for migrant in migrants {
@@ -362,6 +376,24 @@ impl Scratch {
         if cost > max_cost { Err(Rejection::TooExpensive) } else { Ok(cost) }
     }
 
+    /// Fits a child on the subset, and returns its loss.
+    fn loss(
+        &mut self,
+        child: &mut Draft,
+        problem: &Problem,
+        subset: &Samples,
+        by_maximum: bool,
+    ) -> f64 {
+        let fitter = &mut self.fitter;
+        problem.on_formula(child, |formula, own| {
+            let sum = fitter.fit_free(formula, subset, MORE_STEPS, |i| i < own);
+            match by_maximum {
+                true => minimax_loss(fitter, formula, own, subset, f64::INFINITY),
+                false => sum / subset.total_weight(),
+            }
+        })
+    }
+
     fn structure(&mut self, problem: &Problem) -> u64 {
         let formula = problem.formula(&self.candidate);
         structural_hash(&formula, Constants::Ignored, &mut self.hashes)
@@ -394,6 +426,22 @@ impl Scratch {
             if loss < admission { Ok(loss) } else { Err(Rejection::NoBetter) }
         })
     }
+}
+
+/// Fits a formula of the archive to all samples, and returns it with its loss; none if its values
+/// are not as required.
+pub(super) fn refitted(member: &Member, problem: &Problem, fitter: &mut Fitter) -> Option<Member> {
+    let mut draft = member.draft.clone();
+    // The constants of an outer form, which are its last, stay.
+    let own = problem.own_constants(&draft);
+    let mut loss =
+        fitter.fit_free(&mut draft, &problem.all, ALL_SAMPLES, |i| i < own) * problem.scale();
+    if problem.goal.measure == Measure::Max {
+        loss = minimax_loss(fitter, &mut draft, own, &problem.all, f64::INFINITY);
+    }
+    let loss = problem.archive_loss(&draft, loss, &mut fitter.evaluator);
+    let holds = problem.holds_on_samples(&draft, &mut fitter.evaluator);
+    holds.then_some(Member { cost: member.cost, loss, draft })
 }
 
 /// Fits the first `own` constants for the least maximum error while its square may come below

@@ -6,6 +6,7 @@ use super::{FrontMember, Goal, Method, State};
 use crate::archive::Archive;
 use crate::grammar::MAX_INSTRUCTIONS;
 use crate::program::Draft;
+use crate::truth::DomainError;
 
 /// The most instructions of a finished formula: a search's has at most [`MAX_INSTRUCTIONS`], and
 /// required ranges and the inverses of transforms add a few.
@@ -18,6 +19,12 @@ impl FrontMember {
         for error in self.score.search.iter().chain(&self.score.validation) {
             not_negative("rmse", error.rmse)?;
             not_negative("max", error.max)?;
+        }
+        for DomainError { rmse, rmse_within, max, max_within } in &self.domain {
+            not_negative("rmse", *rmse)?;
+            not_negative("rmse_within", *rmse_within)?;
+            not_negative("max", *max)?;
+            not_negative("max_within", *max_within)?;
         }
         short(&self.program)
     }

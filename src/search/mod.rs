@@ -23,8 +23,10 @@
 //! ```
 
 mod common_factor;
+mod domain;
 mod enumerate;
 mod finish;
+mod follow;
 mod front;
 mod goal;
 mod island;
@@ -38,6 +40,7 @@ mod rounding;
 mod scales;
 mod vary;
 
+pub use domain::integrate;
 pub use enumerate::Enumeration;
 pub use finish::{Rehearsal, Work};
 pub use front::{Front, FrontMember, ScoredIncumbent};

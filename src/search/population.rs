@@ -121,6 +121,11 @@ impl Population {
         true
     }
 
+    /// Takes all individuals out, family after family, by rising cost.
+    pub fn take(&mut self) -> Vec<Individual> {
+        self.buckets.iter_mut().flat_map(std::mem::take).collect()
+    }
+
     /// Picks an individual: any occupied bucket with equal probability, and from it the better of
     /// two random individuals.
     pub fn pick(&self, rng: &mut ChaCha8Rng) -> Option<&Individual> {

@@ -29,7 +29,11 @@ use std::sync::Arc;
 #[derive(Clone, Debug)]
 pub struct Problem {
     pub(super) dataset: Arc<Dataset>,
-    /// The dataset over the columns that are searched ([`super::scales`]).
+    /// The rows in place of its search split, if there are some ([`Problem::sampled_on`]); their
+    /// weights are shares of the domain.
+    followed: Option<Arc<Dataset>>,
+    /// The dataset, or what is in its place, over the columns that are searched
+    /// ([`super::scales`]).
     searched: Arc<Dataset>,
     /// The scaling of those columns; none if they are the dataset's own.
     pub(super) scales: Option<Scales>,
@@ -134,30 +138,24 @@ impl ProblemBuilder {
             ));
         }
         let scales = Some(Scales::of(&dataset)).filter(|scales| !scales.are_natural());
-        let searched = match &scales {
-            Some(scales) => Arc::new(scales.scaled(&dataset)),
-            None => Arc::clone(&dataset),
-        };
         let checks = Checks::new(&goal.requirements, &dataset);
         let units = output_units(&dataset.outputs);
-        let searched_units = output_units(&searched.outputs);
-        let plain = goal.measure.all_samples(&searched.search, inputs, &searched_units);
-        let all_rows: Vec<u32> = (0..dataset.search.rows() as u32).collect();
-        let all = checks.samples(&searched, goal.measure, &all_rows);
-        Ok(Problem {
-            constant_loss: constant_loss(&plain, goal.measure),
-            without_ends: (all.rows() > plain.rows()).then_some(plain),
+        let problem = Problem {
+            constant_loss: f64::INFINITY,
+            without_ends: None,
             outer: goal.outer(inputs, outputs),
             unit: if goal.measure == Measure::Relative { 1.0 } else { joint_unit(&units) },
+            searched: Arc::clone(&dataset),
             dataset,
-            searched,
+            followed: None,
             scales,
             grammar,
             profile,
             goal,
             checks,
-            all,
-        })
+            all: Samples::default(),
+        };
+        Ok(problem.laid_out())
     }
 }
 
@@ -193,10 +191,42 @@ impl Problem {
         &self.goal
     }
 
+    /// Returns the same problem with other rows in place of the search split, on which formulas are
+    /// fitted and judged; they are over all columns, and their weights are shares of the domain
+    /// (mean 1). Formulas that are shown are scored on the dataset as it is.
+    ///
+    /// # Errors
+    /// Rows that are no split of the dataset.
+    pub fn sampled_on(&self, rows: Split) -> Result<Problem, SetupError> {
+        let dataset = Dataset { search: rows, ..Dataset::clone(&self.dataset) };
+        dataset.validate()?;
+        Ok(Problem { followed: Some(Arc::new(dataset)), ..self.clone() }.laid_out())
+    }
+
+    /// Lays out the samples.
+    fn laid_out(self) -> Problem {
+        let sampled = self.followed.as_ref().unwrap_or(&self.dataset);
+        let searched = match &self.scales {
+            Some(scales) => Arc::new(scales.scaled(sampled)),
+            None => Arc::clone(sampled),
+        };
+        let (inputs, units) = (searched.inputs.len(), output_units(&searched.outputs));
+        let plain = self.by_share(self.goal.measure).all_samples(&searched.search, inputs, &units);
+        let plain = self.relative_by_share(plain, self.goal.measure, &searched.search.weights);
+        let problem = Problem { searched, ..self };
+        let all = problem.laid_out_in(problem.goal.measure);
+        Problem {
+            constant_loss: constant_loss(&plain, problem.goal.measure),
+            without_ends: (all.rows() > plain.rows()).then_some(plain),
+            all,
+            ..problem
+        }
+    }
+
     /// Returns a subset of so many samples for candidates to race on; for the maximum error also up
     /// to as many at the ends of the inputs.
     pub(super) fn race(&self, subset: usize) -> Samples {
-        let mut rows = spread_rows(self.dataset.search.rows(), subset);
+        let mut rows = spread_rows(self.searched.search.rows(), subset);
         if self.goal.measure == Measure::Max {
             let edges = edge_rows(&self.searched.search, self.dataset.inputs.len());
             let chosen = spread_rows(edges.len(), subset);
@@ -204,22 +234,55 @@ impl Problem {
             rows.sort_unstable();
             rows.dedup();
         }
-        self.checks.samples(&self.searched, self.goal.measure, &rows)
+        self.samples(&self.searched, self.goal.measure, &rows)
+    }
+
+    /// Lays out rows of the dataset or of what is searched, weighted for a measure.
+    fn samples(&self, dataset: &Dataset, measure: Measure, rows: &[u32]) -> Samples {
+        let samples = self.checks.samples(dataset, self.by_share(measure), rows);
+        let shares: Vec<f32> =
+            rows.iter().map(|&row| dataset.search.weight(row as usize)).collect();
+        self.relative_by_share(samples, measure, &shares)
+    }
+
+    /// Weighs samples by their shares as well, if their errors are relative.
+    fn relative_by_share(&self, mut samples: Samples, measure: Measure, shares: &[f32]) -> Samples {
+        if self.followed.is_none() || measure != Measure::Relative {
+            return samples;
+        }
+        for output in 0..samples.outputs() {
+            let weights = samples.weights(output).iter().zip(shares);
+            let weights: Vec<f32> = weights.map(|(weight, share)| weight * share).collect();
+            samples.set_weights(output, &weights);
+        }
+        let total = shares.iter().copied().map(f64::from).sum::<f64>() * samples.outputs() as f64;
+        samples.set_total_weight(total);
+        samples
+    }
+
+    /// Returns the measure that weighs rows by their shares of the domain, if they have some.
+    fn by_share(&self, measure: Measure) -> Measure {
+        match measure {
+            Measure::Rmse if self.followed.is_some() => Measure::Weighted,
+            _ => measure,
+        }
     }
 
     /// Returns all samples, weighted for a measure.
     pub(super) fn all_in(&self, measure: Measure) -> Samples {
-        if measure == self.goal.measure {
-            return self.all.clone();
-        }
-        let rows: Vec<u32> = (0..self.dataset.search.rows() as u32).collect();
-        self.checks.samples(&self.searched, measure, &rows)
+        if measure == self.goal.measure { self.all.clone() } else { self.laid_out_in(measure) }
+    }
+
+    fn laid_out_in(&self, measure: Measure) -> Samples {
+        let rows: Vec<u32> = (0..self.searched.search.rows() as u32).collect();
+        self.samples(&self.searched, measure, &rows)
     }
 
     /// As [`Problem::all_in`], but over the dataset's own columns.
     pub(super) fn all_as_given(&self, measure: Measure) -> Samples {
-        let rows: Vec<u32> = (0..self.dataset.search.rows() as u32).collect();
-        self.checks.samples(&self.dataset, measure, &rows)
+        let dataset = self.followed.as_ref().unwrap_or(&self.dataset);
+        let rows: Vec<u32> = (0..dataset.search.rows() as u32).collect();
+        self.samples(dataset, measure, &rows)
     }
 
     /// Returns the error over all outputs that a loss stands for, as
@@ -274,6 +337,12 @@ impl Problem {
         let result = work(&mut formula, own);
         child.consts.copy_from_slice(&formula.consts[..own]);
         result
+    }
+
+    /// Returns the number of a formula's constants that are not the outer form's.
+    pub(super) fn own_constants(&self, formula: &Draft) -> usize {
+        let outer = self.outer.as_ref().map_or(0, Outer::constants);
+        formula.consts.len().saturating_sub(outer)
     }
 
     /// Returns the cycles plus penalties of the formula that a draft of the search becomes.

@@ -18,12 +18,12 @@
 use super::lobe::ggx;
 use super::sampling::{SAMPLING, SAMPLING_SEED};
 use super::table::{Sample, Table};
-use super::{Error, Progress, Recipe, Target, points};
-use crate::dataset::{Axis, Dataset};
+use super::{Make, Recipe, Target, points};
+use crate::dataset::Axis;
 use crate::quadrature::{Estimate, TanhSinh};
 use std::f64::consts::{FRAC_PI_2, PI};
 
-/// The largest estimated error that [`generate`] accepts: below the rounding to f32.
+/// The largest estimated error that [`generate`](super::generate) accepts: below the rounding to f32.
 pub const ALLOWED_ERROR: f64 = 1e-8;
 /// A thousandth of it, for each of the integrals that are added.
 const TOLERANCE: f64 = 1e-11;
@@ -35,7 +35,7 @@ pub(super) const TARGET: Target = Target {
     description: "GGX lobe integrated over a spherical light, over its peak, v = n = r",
     columns: "omega (full cone angle), roughness, theta (light from r) → lobe",
     parameters: &[points("16", 64), SAMPLING, SAMPLING_SEED],
-    generate,
+    make: Make::Table(table),
 };
 
 /// Computes `lobe` at `omega` in [0, π), `alpha` in (0, 1] and `theta` in [0, π/2], radians. Make
@@ -115,26 +115,22 @@ impl Arc {
     }
 }
 
-/// Makes the dataset on ω in [0, 1] rad, roughness in [0, 1] and θ in
+/// Returns the table on ω in [0, 1] rad, roughness in [0, 1] and θ in
 /// [0, π/2], with roughness = .001 in place of 0.
-///
-/// # Errors
-/// An estimated error above [`ALLOWED_ERROR`].
-pub fn generate(recipe: &Recipe, progress: Progress) -> Result<Dataset, Error> {
+fn table(recipe: &Recipe) -> Table {
     let rule = TanhSinh::new();
-    let table = Table {
+    Table::new(
         recipe,
-        axes: &[
+        vec![
             Axis { unit: "rad".into(), ..Axis::unit("omega") },
             Axis { least: Some(SMOOTHEST), ..Axis::unit("roughness") },
             Axis { unit: "rad".into(), domain: [0.0, FRAC_PI_2], ..Axis::unit("theta") },
         ],
-        outputs: &[("lobe", "1")],
-        points: recipe.count("points"),
-        allowed_error: ALLOWED_ERROR,
-    };
-    table.dataset(progress, |at| {
-        let lobe = integrate(&rule, at[0], at[1] * at[1], at[2].min(FRAC_PI_2));
-        Sample { values: [lobe.value], error: lobe.error }
-    })
+        &[("lobe", "1")],
+        ALLOWED_ERROR,
+        move |at| {
+            let lobe = integrate(&rule, at[0], at[1] * at[1], at[2].min(FRAC_PI_2));
+            Sample { values: [lobe.value], error: lobe.error }
+        },
+    )
 }

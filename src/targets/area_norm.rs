@@ -20,11 +20,11 @@
 use super::lobe::{ggx, integrate_angle};
 use super::sampling::{SAMPLING, SAMPLING_SEED};
 use super::table::{Sample, Table};
-use super::{Choices, Error, Parameter, Progress, Recipe, Target, points};
-use crate::dataset::{Axis, Dataset};
+use super::{Choices, Make, Parameter, Recipe, Target, points};
+use crate::dataset::Axis;
 use crate::quadrature::TanhSinh;
 
-/// The largest estimated error that [`generate`] accepts: below the rounding to f32.
+/// The largest estimated error that [`generate`](super::generate) accepts: below the rounding to f32.
 pub const ALLOWED_ERROR: f64 = 1e-8;
 const SMOOTHED: &str = "smoothed";
 const HARD: &str = "hard";
@@ -54,7 +54,7 @@ pub(super) const TARGET: Target = Target {
         SAMPLING,
         SAMPLING_SEED,
     ],
-    generate,
+    make: Make::Table(table),
 };
 
 /// The point of the light that stands for it.
@@ -108,12 +108,9 @@ pub fn integrate(
     Norm { value, error: (one_point.error + value * moved.error) / moved.value }
 }
 
-/// Makes the dataset on ω in [0, 1] rad or R in [0, 0.5], and alpha in [0, 1],
+/// Returns the table on ω in [0, 1] rad or R in [0, 0.5], and alpha in [0, 1],
 /// with alpha = .001 in place of 0.
-///
-/// # Errors
-/// An estimated error above [`ALLOWED_ERROR`].
-pub fn generate(recipe: &Recipe, progress: Progress) -> Result<Dataset, Error> {
+fn table(recipe: &Recipe) -> Table {
     let rule = TanhSinh::new();
     let point = match recipe.get("point") {
         Some(HARD) => RepresentativePoint::Hard,
@@ -124,16 +121,15 @@ pub fn generate(recipe: &Recipe, progress: Progress) -> Result<Dataset, Error> {
         true => Axis { domain: [0.0, 0.5], ..Axis::unit(TAN_HALF_OMEGA) },
         false => Axis { unit: "rad".into(), ..Axis::unit(OMEGA) },
     };
-    let table = Table {
+    Table::new(
         recipe,
-        axes: &[size, Axis { least: Some(NARROWEST), ..Axis::unit("alpha") }],
-        outputs: &[("norm", "1")],
-        points: recipe.count("points"),
-        allowed_error: ALLOWED_ERROR,
-    };
-    table.dataset(progress, |at| {
-        let tan_half_omega = if by_tangent { at[0] } else { (0.5 * at[0]).tan() };
-        let norm = integrate(&rule, tan_half_omega, at[1], point);
-        Sample { values: [norm.value], error: norm.error }
-    })
+        vec![size, Axis { least: Some(NARROWEST), ..Axis::unit("alpha") }],
+        &[("norm", "1")],
+        ALLOWED_ERROR,
+        move |at| {
+            let tan_half_omega = if by_tangent { at[0] } else { (0.5 * at[0]).tan() };
+            let norm = integrate(&rule, tan_half_omega, at[1], point);
+            Sample { values: [norm.value], error: norm.error }
+        },
+    )
 }

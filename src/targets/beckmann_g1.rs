@@ -7,8 +7,8 @@
 
 use super::sampling::{SAMPLING, SAMPLING_SEED};
 use super::table::{Sample, Table};
-use super::{Error, Progress, Recipe, Target, points};
-use crate::dataset::{Axis, Dataset};
+use super::{Make, Recipe, Target, points};
+use crate::dataset::Axis;
 use crate::microfacet::beckmann;
 
 /// The error of Λ for slopes up to 1.6, by the tests of [`beckmann`].
@@ -19,20 +19,16 @@ pub(super) const TARGET: Target = Target {
     description: "Smith masking of Beckmann facets, exact, over a = 1 / (alpha tan(theta))",
     columns: "a → g1",
     parameters: &[points("256", 4096), SAMPLING, SAMPLING_SEED],
-    generate,
+    make: Make::Table(table),
 };
 
-/// Makes the dataset on a in [0, 1.6].
-///
-/// # Errors
-/// None that a recipe can cause.
-pub fn generate(recipe: &Recipe, progress: Progress) -> Result<Dataset, Error> {
-    let table = Table {
+/// Returns the table on a in [0, 1.6].
+fn table(recipe: &Recipe) -> Table {
+    Table::new(
         recipe,
-        axes: &[Axis { domain: [0.0, 1.6], ..Axis::unit("a") }],
-        outputs: &[("g1", "1")],
-        points: recipe.count("points"),
-        allowed_error: ERROR,
-    };
-    table.dataset(progress, |at| Sample { values: [beckmann::g1_of_slope(at[0])], error: ERROR })
+        vec![Axis { domain: [0.0, 1.6], ..Axis::unit("a") }],
+        &[("g1", "1")],
+        ERROR,
+        |at| Sample { values: [beckmann::g1_of_slope(at[0])], error: ERROR },
+    )
 }

@@ -15,14 +15,14 @@
 
 use super::sampling::{SAMPLING, SAMPLING_SEED};
 use super::table::{Sample, Table};
-use super::{Choices, Error, Parameter, Progress, Recipe, Target, points};
-use crate::dataset::{Axis, Dataset};
+use super::{Choices, Make, Parameter, Recipe, Target, points};
+use crate::dataset::Axis;
 use crate::microfacet::{fresnel, ggx};
 use crate::quadrature::{Abscissa, TanhSinh};
 use std::cell::Cell;
 use std::f64::consts::{FRAC_PI_2, PI};
 
-/// The largest estimated error that [`generate`] accepts: about the rounding to f32.
+/// The largest estimated error that [`generate`](super::generate) accepts: about the rounding to f32.
 pub const ALLOWED_ERROR: f64 = 1e-7;
 /// A hundredth of it, for each integral: the errors of nested integrals add up.
 const TOLERANCE: f64 = 1e-9;
@@ -54,7 +54,7 @@ pub(super) const TARGET: Target = Target {
         SAMPLING,
         SAMPLING_SEED,
     ],
-    generate,
+    make: Make::Table(table),
 };
 
 /// The combination of the masking of v and the shadowing of l.
@@ -189,41 +189,30 @@ fn integrate_normals(rule: &TanhSinh, view: &View, from: Normal, to: Normal) -> 
     [scale.value, bias.value, scale.error.max(bias.error) + inner.value.abs()]
 }
 
-/// Makes the dataset: search split at the cell centres of a regular grid on
+/// Returns the table: search split at the cell centres of a regular grid on
 /// [0, 1]², unweighted, `n_dot_v` varying slowest; validation split at the
 /// nodes of another grid, edges included, with n·v = .001 in place of 0,
 /// weighted by area (trapezoidal, mean 1). No point is in both.
-///
-/// # Errors
-/// An estimated error above [`ALLOWED_ERROR`].
-pub fn generate(recipe: &Recipe, progress: Progress) -> Result<Dataset, Error> {
+fn table(recipe: &Recipe) -> Table {
     let rule = TanhSinh::new();
     let masking = match recipe.get("masking") {
         Some(SEPARABLE) => Masking::Separable,
         _ => Masking::Correlated,
     };
-    let table = Table {
-        recipe,
-        axes: &[Axis { least: Some(GRAZING), ..Axis::unit("n_dot_v") }, Axis::unit("roughness")],
-        outputs: &[("scale", "1"), ("bias", "1")],
-        points: recipe.count("points"),
-        allowed_error: ALLOWED_ERROR,
+    let by_fourth = recipe.get("alpha") == Some(ROUGHNESS_FOURTH);
+    let alpha = move |roughness: f64| {
+        let square = roughness * roughness;
+        if by_fourth { square * square } else { square }
     };
-    let mut dataset = table.dataset(progress, |point| {
-        let dfg = integrate(&rule, point[0], alpha(recipe, point[1]), masking);
+    let n_dot_v = Axis { least: Some(GRAZING), ..Axis::unit("n_dot_v") };
+    let axes = vec![n_dot_v, Axis::unit("roughness")];
+    let outputs = &[("scale", "1"), ("bias", "1")];
+    let table = Table::new(recipe, axes, outputs, ALLOWED_ERROR, move |at| {
+        let dfg = integrate(&rule, at[0], alpha(at[1]), masking);
         Sample { values: [dfg.scale, dfg.bias], error: dfg.error }
-    })?;
-    dataset.claim(ENERGY)?;
-    Ok(dataset)
+    });
+    table.claiming(ENERGY)
 }
 
 /// No more light leaves than arrives, whatever the reflectance at normal incidence.
 const ENERGY: &str = "energy: f0*scale + bias <= 1 for f0 in 0..1";
-
-fn alpha(recipe: &Recipe, roughness: f64) -> f64 {
-    let square = roughness * roughness;
-    match recipe.get("alpha") {
-        Some(ROUGHNESS_FOURTH) => square * square,
-        _ => square,
-    }
-}

@@ -15,8 +15,8 @@
 
 use super::sampling::{SAMPLING, SAMPLING_SEED};
 use super::table::{Sample, Table};
-use super::{Error, Progress, Recipe, Target, points};
-use crate::dataset::{Axis, Dataset};
+use super::{Make, Recipe, Target, points};
+use crate::dataset::Axis;
 use crate::quadrature::Rule;
 use std::f64::consts::PI;
 
@@ -31,7 +31,7 @@ pub(super) const TARGET: Target = Target {
     description: "zonal harmonics of the Disney diffuse lobe times cosine, 1/pi included",
     columns: "n_dot_v, roughness → zh0, zh1, zh2, beta (axis = (1 - beta) n + beta v)",
     parameters: &[points("64", 1024), SAMPLING, SAMPLING_SEED],
-    generate,
+    make: Make::Table(table),
 };
 
 /// The coefficients of the lobe about its axis, and the axis.
@@ -110,20 +110,16 @@ fn moments(n_dot_v: f64, roughness: f64) -> Moments {
     moments
 }
 
-/// Makes the dataset on [0, 1]², edges included.
-///
-/// # Errors
-/// None that a recipe can cause.
-pub fn generate(recipe: &Recipe, progress: Progress) -> Result<Dataset, Error> {
-    let table = Table {
+/// Returns the table on [0, 1]², edges included.
+fn table(recipe: &Recipe) -> Table {
+    Table::new(
         recipe,
-        axes: &[Axis::unit("n_dot_v"), Axis::unit("roughness")],
-        outputs: &[("zh0", "1"), ("zh1", "1"), ("zh2", "1"), ("beta", "1")],
-        points: recipe.count("points"),
-        allowed_error: ERROR,
-    };
-    table.dataset(progress, |at| {
-        let Lobe { zh: [zh0, zh1, zh2], beta } = project(at[0], at[1]);
-        Sample { values: [zh0, zh1, zh2, beta], error: ERROR }
-    })
+        vec![Axis::unit("n_dot_v"), Axis::unit("roughness")],
+        &[("zh0", "1"), ("zh1", "1"), ("zh2", "1"), ("beta", "1")],
+        ERROR,
+        |at| {
+            let Lobe { zh: [zh0, zh1, zh2], beta } = project(at[0], at[1]);
+            Sample { values: [zh0, zh1, zh2, beta], error: ERROR }
+        },
+    )
 }

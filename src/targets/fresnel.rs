@@ -7,8 +7,8 @@
 
 use super::sampling::{SAMPLING, SAMPLING_SEED};
 use super::table::{Sample, Table};
-use super::{Error, Progress, Recipe, Target, points};
-use crate::dataset::{Axis, Dataset};
+use super::{Make, Recipe, Target, points};
+use crate::dataset::Axis;
 use crate::microfacet::fresnel;
 
 /// The rounding of a few operations.
@@ -19,23 +19,16 @@ pub(super) const TARGET: Target = Target {
     description: "Fresnel reflectance of dielectrics, exact, unpolarised",
     columns: "v_dot_h, f0 → reflectance",
     parameters: &[points("64", 1024), SAMPLING, SAMPLING_SEED],
-    generate,
+    make: Make::Table(table),
 };
 
-/// Makes the dataset on v·h in [0, 1] and f0 in [.02, .18].
-///
-/// # Errors
-/// None that a recipe can cause.
-pub fn generate(recipe: &Recipe, progress: Progress) -> Result<Dataset, Error> {
-    let table = Table {
+/// Returns the table on v·h in [0, 1] and f0 in [.02, .18].
+fn table(recipe: &Recipe) -> Table {
+    Table::new(
         recipe,
-        axes: &[Axis::unit("v_dot_h"), Axis { domain: [0.02, 0.18], ..Axis::unit("f0") }],
-        outputs: &[("reflectance", "1")],
-        points: recipe.count("points"),
-        allowed_error: ERROR,
-    };
-    table.dataset(progress, |at| Sample {
-        values: [fresnel::cook_torrance(at[1], at[0])],
-        error: ERROR,
-    })
+        vec![Axis::unit("v_dot_h"), Axis { domain: [0.02, 0.18], ..Axis::unit("f0") }],
+        &[("reflectance", "1")],
+        ERROR,
+        |at| Sample { values: [fresnel::cook_torrance(at[1], at[0])], error: ERROR },
+    )
 }

@@ -6,7 +6,7 @@
 //! `t² / (1 + t²)`, t = tan θ / α, of the normals nearer to n, α at equal ratios
 //! from .001 to 1. The truth is that of n·h and α as rounded to f32.
 
-use super::{Error, Progress, Recipe, Target, points};
+use super::{Error, Make, Progress, Recipe, Target, points};
 use crate::dataset::{Axis, Dataset, Spacing, Split, grid_weights};
 use crate::microfacet::{ggx, sampling};
 use std::f64::consts::PI;
@@ -20,7 +20,7 @@ pub(super) const TARGET: Target = Target {
     description: "GGX distribution over its peak, pi alpha^2 D, in narrow lobes: stiff",
     columns: "n_dot_h, alpha → d_over_peak",
     parameters: &[points("64", 1024)],
-    generate,
+    make: Make::Rows(generate),
 };
 
 /// `π α² D`, in [0, 1], of `n_dot_h` in [0, 1] and `alpha` in (0, 1].

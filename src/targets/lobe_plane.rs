@@ -22,12 +22,12 @@
 use super::sampling::{SAMPLING, SAMPLING_SEED};
 use super::simplex;
 use super::table::{Sample, Table};
-use super::{Choices, Error, Parameter, Progress, Recipe, Target, points};
-use crate::dataset::{Axis, Dataset, Spacing};
+use super::{Choices, Make, Parameter, Recipe, Target, points};
+use crate::dataset::{Axis, Spacing};
 use crate::quadrature::Rule;
 use std::f64::consts::{FRAC_PI_3, PI};
 
-/// The largest estimated error that [`generate`] accepts: the fit is of a model to a model.
+/// The largest estimated error that [`generate`](super::generate) accepts: the fit is of a model to a model.
 pub const ALLOWED_ERROR: f64 = 1e-5;
 const DISTANCE: &str = "distance";
 const ANGLE: &str = "angle";
@@ -55,7 +55,7 @@ pub(super) const TARGET: Target = Target {
         SAMPLING,
         SAMPLING_SEED,
     ],
-    generate,
+    make: Make::Table(table),
 };
 
 /// A fitted roughness, and its error.
@@ -190,12 +190,9 @@ fn kernel(alpha: f64, rho_squared: f64) -> f64 {
     cosine / (cos_half_squared + sin_half_squared / (alpha * alpha)).powi(2)
 }
 
-/// Makes the dataset on roughness in [0, 1], .001 in place of 0, and distance
+/// Returns the table on roughness in [0, 1], .001 in place of 0, and distance
 /// in [1/4, 4], equidistant in its logarithm, or angle in [0, π/3].
-///
-/// # Errors
-/// An estimated error above [`ALLOWED_ERROR`].
-pub fn generate(recipe: &Recipe, progress: Progress) -> Result<Dataset, Error> {
+fn table(recipe: &Recipe) -> Table {
     let reach = if recipe.get("reach") == Some("4") { 4.0 } else { 2.0 };
     let by_angle = recipe.get("over") == Some(ANGLE);
     let other = match by_angle {
@@ -204,18 +201,17 @@ pub fn generate(recipe: &Recipe, progress: Progress) -> Result<Dataset, Error> {
             Axis { domain: [0.25, 4.0], spacing: Spacing::Logarithmic, ..Axis::unit(DISTANCE) }
         }
     };
-    let table = Table {
+    Table::new(
         recipe,
-        axes: &[Axis { least: Some(SMOOTHEST), ..Axis::unit("roughness") }, other],
-        outputs: &[("fitted_roughness", "1")],
-        points: recipe.count("points"),
-        allowed_error: ALLOWED_ERROR,
-    };
-    table.dataset(progress, |at| {
-        let fit = match by_angle {
-            true => fit_angle(at[0], at[1], reach),
-            false => fit_distance(at[0], at[1], reach),
-        };
-        Sample { values: [fit.roughness], error: fit.error }
-    })
+        vec![Axis { least: Some(SMOOTHEST), ..Axis::unit("roughness") }, other],
+        &[("fitted_roughness", "1")],
+        ALLOWED_ERROR,
+        move |at| {
+            let fit = match by_angle {
+                true => fit_angle(at[0], at[1], reach),
+                false => fit_distance(at[0], at[1], reach),
+            };
+            Sample { values: [fit.roughness], error: fit.error }
+        },
+    )
 }

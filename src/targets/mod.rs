@@ -34,7 +34,8 @@ pub use error::Error;
 pub use recipe::Recipe;
 
 use crate::dataset::Dataset;
-use crate::truth::Progress;
+use crate::truth::{Progress, Truth};
+use table::Table;
 
 /// A ground truth that [`generate`] can make.
 #[derive(Debug)]
@@ -47,7 +48,16 @@ pub struct Target {
     pub columns: &'static str,
     /// The parameters that a recipe may set.
     pub parameters: &'static [Parameter],
-    generate: fn(&Recipe, Progress) -> Result<Dataset, Error>,
+    make: Make,
+}
+
+/// The way to a target's data.
+#[derive(Clone, Copy, Debug)]
+enum Make {
+    /// A function that can be evaluated anywhere in its domain.
+    Table(fn(&Recipe) -> Table),
+    /// Rows that are not spread evenly over the domain of their inputs.
+    Rows(fn(&Recipe, Progress) -> Result<Dataset, Error>),
 }
 
 const fn points(default: &'static str, most: usize) -> Parameter {
@@ -110,7 +120,19 @@ pub fn targets() -> &'static [Target] {
 /// A ground truth whose estimated error is larger than its target allows; a text that is not a
 /// claim.
 pub fn generate(recipe: &Recipe, progress: Progress) -> Result<Dataset, Error> {
-    let mut dataset = (recipe.target().generate)(recipe, progress)?;
+    let mut dataset = match recipe.target().make {
+        Make::Table(table) => table(recipe).dataset(progress)?,
+        Make::Rows(generate) => generate(recipe, progress)?,
+    };
     recipe.claims.iter().try_for_each(|claim| dataset.claim(claim))?;
     Ok(dataset)
+}
+
+/// Returns the function that a recipe's dataset samples; none if its rows are not spread evenly over
+/// the domain.
+pub fn truth(recipe: &Recipe) -> Option<Truth> {
+    match recipe.target().make {
+        Make::Table(table) => table(recipe).truth().ok(),
+        Make::Rows(_) => None,
+    }
 }

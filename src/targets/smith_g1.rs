@@ -5,8 +5,8 @@
 
 use super::sampling::{SAMPLING, SAMPLING_SEED};
 use super::table::{Sample, Table};
-use super::{Error, Progress, Recipe, Target, points};
-use crate::dataset::{Axis, Dataset};
+use super::{Make, Recipe, Target, points};
+use crate::dataset::Axis;
 use crate::microfacet::ggx;
 
 /// Sampled instead of n·v = 0, where g1 is 0 for all α but 0.
@@ -17,20 +17,16 @@ pub(super) const TARGET: Target = Target {
     description: "Smith masking of GGX facets, exact",
     columns: "n_dot_v, alpha → g1",
     parameters: &[points("64", 1024), SAMPLING, SAMPLING_SEED],
-    generate,
+    make: Make::Table(table),
 };
 
-/// Makes the dataset on [0, 1]², with n·v = .001 in place of 0.
-///
-/// # Errors
-/// None that a recipe can cause.
-pub fn generate(recipe: &Recipe, progress: Progress) -> Result<Dataset, Error> {
-    let table = Table {
+/// Returns the table on [0, 1]², with n·v = .001 in place of 0.
+fn table(recipe: &Recipe) -> Table {
+    Table::new(
         recipe,
-        axes: &[Axis { least: Some(GRAZING), ..Axis::unit("n_dot_v") }, Axis::unit("alpha")],
-        outputs: &[("g1", "1")],
-        points: recipe.count("points"),
-        allowed_error: f64::EPSILON,
-    };
-    table.dataset(progress, |at| Sample { values: [ggx::g1(at[0], at[1])], error: f64::EPSILON })
+        vec![Axis { least: Some(GRAZING), ..Axis::unit("n_dot_v") }, Axis::unit("alpha")],
+        &[("g1", "1")],
+        f64::EPSILON,
+        |at| Sample { values: [ggx::g1(at[0], at[1])], error: f64::EPSILON },
+    )
 }

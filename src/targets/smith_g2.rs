@@ -6,8 +6,8 @@
 
 use super::sampling::{SAMPLING, SAMPLING_SEED};
 use super::table::{Sample, Table};
-use super::{Choices, Error, Parameter, Progress, Recipe, Target, points};
-use crate::dataset::{Axis, Dataset};
+use super::{Choices, Make, Parameter, Recipe, Target, points};
+use crate::dataset::Axis;
 use crate::microfacet::ggx;
 
 /// Sampled instead of a cosine of 0, where g2 is 0 for all α but 0.
@@ -30,25 +30,21 @@ pub(super) const TARGET: Target = Target {
         SAMPLING,
         SAMPLING_SEED,
     ],
-    generate,
+    make: Make::Table(table),
 };
 
-/// Makes the dataset on [0, 1]³, with cosines of .001 in place of 0.
-///
-/// # Errors
-/// None that a recipe can cause.
-pub fn generate(recipe: &Recipe, progress: Progress) -> Result<Dataset, Error> {
+/// Returns the table on [0, 1]³, with cosines of .001 in place of 0.
+fn table(recipe: &Recipe) -> Table {
     let g2 = match recipe.get("masking") {
         Some(SEPARABLE) => ggx::g2_separable,
         _ => ggx::g2_correlated,
     };
     let cosine = |name| Axis { least: Some(GRAZING), ..Axis::unit(name) };
-    let table = Table {
+    Table::new(
         recipe,
-        axes: &[cosine("n_dot_l"), cosine("n_dot_v"), Axis::unit("alpha")],
-        outputs: &[("g2", "1")],
-        points: recipe.count("points"),
-        allowed_error: f64::EPSILON,
-    };
-    table.dataset(progress, |at| Sample { values: [g2(at[0], at[1], at[2])], error: f64::EPSILON })
+        vec![cosine("n_dot_l"), cosine("n_dot_v"), Axis::unit("alpha")],
+        &[("g2", "1")],
+        f64::EPSILON,
+        move |at| Sample { values: [g2(at[0], at[1], at[2])], error: f64::EPSILON },
+    )
 }

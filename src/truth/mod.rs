@@ -19,12 +19,14 @@
 mod domain;
 mod error;
 mod formula;
+mod mesh;
 mod sampling;
 mod splits;
 
 pub use domain::{axes_of, column_name, parse_domain, write_domain};
 pub use error::Error;
 pub use formula::{exact_formula, formula_of, read_formula};
+pub use mesh::{DomainError, Formulas, Mesh, Norm, Tile};
 pub use sampling::{MOST_AXES, Sampling};
 pub use splits::{Grids, Progress, Value, scattered_splits};
 
@@ -153,6 +155,42 @@ impl Truth {
                 Err(Error::NotFinite { output: output.clone(), value, point: place() })
             }
         }
+    }
+
+    /// Returns the truth of these outputs alone, in this order; none if it lacks one.
+    pub fn choose(&self, outputs: &[String]) -> Option<Truth> {
+        let derived = self.derived.as_ref().map_or(0, |derived| derived.names.len());
+        let place = |name: &String| self.outputs.iter().position(|output| output == name);
+        let places: Vec<usize> = outputs.iter().map(place).collect::<Option<_>>()?;
+        if places.iter().copied().eq(0..self.outputs.len()) {
+            return Some(self.clone());
+        }
+        let function = Arc::clone(&self.function);
+        let chosen = move |point: &[f64]| {
+            let values = function(point)?;
+            let inputs = values[..derived].iter();
+            Ok(inputs
+                .chain(places.iter().map(|&place| &values[derived + place]))
+                .copied()
+                .collect())
+        };
+        Some(Truth { outputs: outputs.to_vec(), function: Arc::new(chosen), ..self.clone() })
+    }
+
+    /// Evaluates it at a point as rows have it, one value for each axis: the inputs of formulas,
+    /// and the outputs.
+    ///
+    /// # Errors
+    /// As [`Truth::at`].
+    fn row(&self, point: &[f32]) -> Result<(Vec<f32>, Vec<f64>), Error> {
+        let exact: Vec<f64> = point.iter().copied().map(f64::from).collect();
+        let mut values = self.at(&exact)?;
+        let Some(Derived { names, axes }) = &self.derived else {
+            return Ok((point.to_vec(), values));
+        };
+        let outputs = values.split_off(names.len());
+        let derived = values.iter().map(|&value| value as f32);
+        Ok((derived.chain(axes.iter().map(|&axis| point[axis])).collect(), outputs))
     }
 
     /// Samples it: `points` along each axis of the search grid and its ends, or in all if there are more than

@@ -10,7 +10,8 @@ use std::fmt::Write;
 /// their cost puts them. Errors are over all outputs; errors by output follow if there are several.
 pub fn front_table(front: &Front, incumbents: &[ScoredIncumbent], outputs: &[String]) -> String {
     let judged = front.members.iter().any(|member| member.verdict.is_judged());
-    let mut text = heading(outputs, front.measure, judged);
+    let is_integrated = front.is_integrated();
+    let mut text = heading(outputs, front.measure, is_integrated, judged);
     let mut waiting: Vec<&ScoredIncumbent> = incumbents.iter().collect();
     waiting.sort_by(|a, b| a.member.cost.total_cmp(&b.member.cost));
     let mut waiting = waiting.into_iter().peekable();
@@ -18,21 +19,24 @@ pub fn front_table(front: &Front, incumbents: &[ScoredIncumbent], outputs: &[Str
         while let Some(known) = waiting.next_if(|known| known.member.cost < member.cost) {
             text += &incumbent_row(known, front);
         }
-        let numbers = numbers(member, front.measure);
+        let numbers = numbers(member, front.measure, is_integrated);
         let _ = writeln!(text, "{:>4}  {numbers}{}", i + 1, statuses(member));
         let _ = writeln!(text, "      {}", member.formula);
     }
     waiting.for_each(|known| text += &incumbent_row(known, front));
     if front.members.len() + incumbents.len() > 1 {
-        text += &cut(front.measure);
+        text += &cut(front);
     }
     text
 }
 
 /// Says by which error formulas are on the front.
-pub fn cut(measure: Measure) -> String {
-    let title = axis_title(measure);
-    match measure {
+pub fn cut(front: &Front) -> String {
+    let title = axis_title(front.measure);
+    match front.measure {
+        _ if front.is_integrated() => format!(
+            "The front holds each formula that no cheaper one equals in {title} over the whole domain; errors are integrated adaptively, to within `± RMSE`, and `+ max` is what the largest may be above what was found.\n"
+        ),
         Measure::Max => format!(
             "The front holds each formula that no cheaper one equals in {title} on the search split, where {title} was minimised.\n"
         ),
@@ -47,9 +51,10 @@ fn is_own_column(measure: Measure) -> bool {
     !matches!(measure, Measure::Rmse | Measure::Max)
 }
 
-fn heading(outputs: &[String], measure: Measure, judged: bool) -> String {
+fn heading(outputs: &[String], measure: Measure, is_integrated: bool, judged: bool) -> String {
     let mut text = format!("{:>4}  {:>6}  {:>8} {:>8}  ", "#", "cycles", "RMSE", "max");
-    let _ = write!(text, "{:>8} {:>8}", "val.RMSE", "val.max");
+    let [rmse, max] = if is_integrated { ["± RMSE", "+ max"] } else { ["val.RMSE", "val.max"] };
+    let _ = write!(text, "{rmse:>8} {max:>8}");
     if outputs.len() > 1 {
         for output in outputs {
             let _ = write!(text, "  {:>17}", format!("{output} RMSE, max"));
@@ -82,23 +87,32 @@ fn statuses(member: &FrontMember) -> String {
     format!("  {}{}", said.join("; "), proved.unwrap_or_default())
 }
 
-fn numbers(member: &FrontMember, measure: Measure) -> String {
-    let (search, validation) = (member.search_error(), member.validation_error());
+fn numbers(member: &FrontMember, measure: Measure, is_integrated: bool) -> String {
+    let (shown, validation) = match is_integrated {
+        true => (member.error(), member.validation_error()),
+        false => (member.search_error(), member.validation_error()),
+    };
+    let beside = match (is_integrated, member.domain_error()) {
+        (false, _) => [validation.rmse, validation.max].map(error),
+        (true, Some(domain)) => [domain.rmse_within, domain.max_within].map(error),
+        // On the samples alone.
+        (true, None) => [(); 2].map(|()| format!("{:>8}", "?")),
+    };
     let mut text = format!(
         "{:>6}  {} {}  {} {}",
         cycles_text(member.cost),
-        error(search.rmse),
-        error(search.max),
-        error(validation.rmse),
-        error(validation.max)
+        error(shown.rmse),
+        error(shown.max),
+        beside[0],
+        beside[1]
     );
     if member.score.search.len() > 1 {
-        for output in &member.score.search {
+        for output in if is_integrated { member.errors() } else { member.score.search.clone() } {
             let _ = write!(text, "  {} {}", error(output.rmse), error(output.max));
         }
     }
     if is_own_column(measure) {
-        let [search, validation] = [search, validation].map(|error| error_text(error.of(measure)));
+        let [search, validation] = [shown, validation].map(|error| error_text(error.of(measure)));
         let _ = write!(text, "  {search:>13} {validation:>13}");
     }
     text
@@ -110,12 +124,13 @@ fn incumbent_row(known: &ScoredIncumbent, front: &Front) -> String {
             "dominated by {} ({} cycles, {} {})",
             i + 1,
             cycles_text(member.cost),
-            deciding_title(front.measure),
+            deciding_title(front),
             error_text(member.deciding_error(front.measure))
         ),
         None => "not dominated".to_owned(),
     };
-    format!("   *  {}\n      {}: {standing}\n", numbers(&known.member, front.measure), known.name)
+    let numbers = numbers(&known.member, front.measure, front.is_integrated());
+    format!("   *  {numbers}\n      {}: {standing}\n", known.name)
 }
 
 /// Returns a measure's name in tables and plots.
@@ -130,10 +145,10 @@ pub fn title(measure: Measure) -> &'static str {
 }
 
 /// Returns the name of the error that decides about a front in this measure.
-fn deciding_title(measure: Measure) -> String {
-    match measure {
-        Measure::Max => title(measure).to_owned(),
-        _ => format!("val. {}", title(measure)),
+fn deciding_title(front: &Front) -> String {
+    match front.measure {
+        measure if measure == Measure::Max || front.is_integrated() => title(measure).to_owned(),
+        measure => format!("val. {}", title(measure)),
     }
 }
 

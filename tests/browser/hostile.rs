@@ -77,6 +77,8 @@ fn formula(program: &Program, names: &Names, text: &str, name: Option<&str>) -> 
         registers: vec![Some(1)],
         errors: vec![[0.1, 0.2, 0.1]],
         error: [0.1, 0.2, 0.1],
+        bars: Some([1e-4, 1e-3]),
+        search: [0.1, 0.2, 0.1],
         validation: [0.1, 0.2, 0.1],
         verdict: serde_json::Value::Null,
         formula: text.to_owned(),

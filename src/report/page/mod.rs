@@ -98,8 +98,12 @@ pub struct Formula {
     pub registers: Vec<Option<u32>>,
     /// RMSE, maximum, and the minimised measure, by output, on the search split.
     pub errors: Vec<[f64; 3]>,
-    /// The same over all outputs.
+    /// The same over all outputs: over the whole domain, as far as that was integrated.
     pub error: [f64; 3],
+    /// The error bars of RMSE and maximum over the whole domain, if they were integrated.
+    pub bars: Option<[f64; 2]>,
+    /// The same over all outputs, on the search split.
+    pub search: [f64; 3],
     /// The same over all outputs, on the validation split.
     pub validation: [f64; 3],
     /// The verdict as `front.json` has it; null for published formulas.

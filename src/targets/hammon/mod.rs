@@ -13,7 +13,7 @@ pub mod microsurface;
 
 pub use microsurface::{Microsurface, Sampler};
 
-use super::{Choices, Error, Parameter, Progress, Recipe, Target};
+use super::{Choices, Error, Make, Parameter, Progress, Recipe, Target};
 use crate::dataset::{Column, Dataset};
 use crate::quadrature::Estimate;
 use glam::DVec3;
@@ -65,7 +65,7 @@ pub(super) const TARGET: Target = Target {
             choices: Choices::OneOf(&[AS_WEIGHTS, AS_COLUMNS]),
         },
     ],
-    generate,
+    make: Make::Rows(generate),
 };
 
 /// Mean light in a direction, in 1/sr, each with its standard error.

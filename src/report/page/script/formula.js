@@ -48,9 +48,11 @@ function costTable(one) {
 function errorTable(one) {
   const titles = ["RMSE", "max", ...(ownMeasure ? [ownMeasure] : [])];
   const row = (name, errors) => html("tr", {}, html("td", {}, name), titles.map((_, i) => html("td", {}, errorText(errors[i]))));
+  const barRow = (bars) => html("tr", {}, html("td", {}, "to within"), bars.map((bar) => html("td", {}, errorText(bar))), ownMeasure ? html("td", {}, "") : null);
   return html("div", { class: "scroll" }, html("table", { class: "numbers" },
     html("tr", {}, html("th", {}, "error"), titles.map((title) => html("th", {}, title))),
-    row("search split", one.error), row("validation split", one.validation),
+    one.bars ? [row("whole domain", one.error), barRow(one.bars)] : null,
+    row("search split", one.search), row("validation split", one.validation),
     data.outputs.length > 1 ? data.outputs.map((output, o) => row(output.name, one.errors[o])) : null));
 }
 
