@@ -10,7 +10,11 @@ use std::path::Path;
 
 /// Compares a function with another, in single precision against double.
 pub(super) fn run(args: &Args, common: &Common) -> Result<(), Failure> {
-    let new = args.sampled.shader(&args.snippet, None)?;
+    // What --set and --let say of the old function, formulas for it know nothing of.
+    let new = args
+        .sampled
+        .shader(&args.snippet, None)
+        .or_else(|failed| args.sampled.shader_over_columns(&args.snippet).map_err(|_| failed))?;
     let truth = match &args.against {
         Some(old) => {
             let entry = args.against_entry.as_deref();

@@ -59,34 +59,38 @@ pub fn run(args: &Args, common: &Common) -> Result<(), Failure> {
         Which::Validation => Rows::Validation,
         Which::Both => Rows::Both,
     };
-    let bytes = write(&dataset, rows)
+    let (bytes, count) = write(&dataset, rows)
         .map_err(|reason| Failure::input(format!("{}: {reason}", args.dataset.display())))?;
     replace_file(&args.output, &bytes).map_err(|error| Failure::unwritable(&args.output, error))?;
-    let exported = Exported {
-        rows: rows.of(&dataset).iter().map(|split| split.rows()).sum(),
-        dataset: dataset.name,
-        path: args.output.clone(),
-    };
+    let exported = Exported { rows: count, dataset: dataset.name, path: args.output.clone() };
     let text = format!("{}: {} rows of {}", args.output.display(), exported.rows, exported.dataset);
     common.summary(&exported, &text)
 }
 
-/// Makes the bytes of a file, or says why there are none.
-type Writer = fn(&Dataset, Rows) -> Result<Vec<u8>, String>;
+/// Makes the bytes of a file and counts its rows, or says why there are none.
+type Writer = fn(&Dataset, Rows) -> Result<(Vec<u8>, usize), String>;
 
 /// Returns what writes a file of this extension.
 fn writer(path: &Path, grid: bool) -> Result<Writer, Failure> {
     let extension = path.extension().unwrap_or_default().to_string_lossy().to_ascii_lowercase();
     match (&*extension, grid) {
-        ("csv", false) => Ok(|dataset, rows| Ok(to_csv(dataset, rows).into_bytes())),
+        ("csv", false) => {
+            Ok(|dataset, rows| Ok((to_csv(dataset, rows).into_bytes(), count(dataset, rows))))
+        }
         ("csv", true) => Err(Failure::usage("--grid: a .csv has rows; write a .npy or an .exr")),
-        ("npy", false) => {
-            Ok(|dataset, rows| Ok(to_npy(&Array::of_rows(dataset, &rows.of(dataset)))))
-        }
-        ("npy", true) => Ok(|dataset, _| Ok(to_npy(&on_grid(dataset)?))),
-        ("exr", _) => {
-            Ok(|dataset, _| to_exr(&on_grid(dataset)?).map_err(|fault| fault.to_string()))
-        }
+        ("npy", false) => Ok(|dataset, rows| {
+            let array = Array::of_rows(dataset, &rows.of(dataset));
+            Ok((to_npy(&array), count(dataset, rows)))
+        }),
+        ("npy", true) => Ok(|dataset, rows| {
+            let array = on_grid(dataset, rows)?;
+            Ok((to_npy(&array), array.size.iter().product()))
+        }),
+        ("exr", _) => Ok(|dataset, rows| {
+            let array = on_grid(dataset, rows)?;
+            let bytes = to_exr(&array).map_err(|fault| fault.to_string())?;
+            Ok((bytes, array.size.iter().product()))
+        }),
         _ => {
             let path = path.display();
             Err(Failure::usage(format!(
@@ -96,7 +100,16 @@ fn writer(path: &Path, grid: bool) -> Result<Writer, Failure> {
     }
 }
 
-fn on_grid(dataset: &Dataset) -> Result<Array, String> {
+fn count(dataset: &Dataset, rows: Rows) -> usize {
+    rows.of(dataset).iter().map(|split| split.rows()).sum()
+}
+
+fn on_grid(dataset: &Dataset, rows: Rows) -> Result<Array, String> {
+    let split = match rows {
+        Rows::Search => Some(&dataset.search),
+        Rows::Validation => Some(&dataset.validation),
+        Rows::Both => None,
+    };
     let rows = "its rows are on no grid; write them as .csv, or as .npy without --grid";
-    Array::of_grid(dataset).ok_or_else(|| rows.to_owned())
+    Array::of_grid(dataset, split).ok_or_else(|| rows.to_owned())
 }

@@ -99,6 +99,12 @@ impl Sampled {
         Ok(Shader::load(file, &options)?)
     }
 
+    /// As [`Sampled::shader`], without the definitions: its parameters are columns already.
+    pub fn shader_over_columns(&self, file: &Path) -> Result<Shader, Failure> {
+        let ranged = self.axes()?.iter().map(|axis| axis.name.to_string()).collect();
+        Ok(Shader::load(file, &Options { ranged, ..Options::default() })?)
+    }
+
     /// Returns the samples of the function.
     pub fn dataset(&self, truth: &Truth, common: &Common) -> Result<Dataset, Failure> {
         let bar = common.progress("evaluating");

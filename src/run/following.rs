@@ -22,7 +22,7 @@ const SHARE_OF_TIME: u32 = 8;
 
 /// The least number of evaluations of the truth that integrating errors may take; it may also take
 /// as many as the dataset did. By hand: enough for error bars of less than a percent.
-const EVALUATIONS: usize = 1 << 14;
+const EVALUATIONS: usize = 6000;
 
 /// The state of what follows a search, for a checkpoint.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]

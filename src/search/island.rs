@@ -319,12 +319,12 @@ impl Island {
     pub fn judge_anew(&mut self, problem: &Problem, deadline: &Deadline) {
         self.seen.fill(0);
         self.scratch.fitter.deadline = deadline.moment_alone();
-        for mut one in self.population.take() {
+        let Island { population, scratch, race, by_maximum, .. } = self;
+        population.judge_anew(|one| {
             if !deadline.is_past() {
-                one.loss = self.scratch.loss(&mut one.draft, problem, &self.race, self.by_maximum);
+                one.loss = scratch.loss(&mut one.draft, problem, race, *by_maximum);
             }
-            self.population.offer(one);
-        }
+        });
     }
 
     /// Offers another island's best to the population.

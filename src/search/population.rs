@@ -121,9 +121,14 @@ impl Population {
         true
     }
 
-    /// Takes all individuals out, family after family, by rising cost.
-    pub fn take(&mut self) -> Vec<Individual> {
-        self.buckets.iter_mut().flat_map(std::mem::take).collect()
+    /// Changes losses, and drops those that are no longer finite. All others stay, also those that
+    /// would not be admitted today: better ones may come of them.
+    pub fn judge_anew(&mut self, mut judge: impl FnMut(&mut Individual)) {
+        for bucket in &mut self.buckets {
+            bucket.iter_mut().for_each(&mut judge);
+            bucket.retain(|one| one.loss.is_finite());
+            bucket.sort_by(|a, b| a.loss.total_cmp(&b.loss));
+        }
     }
 
     /// Picks an individual: any occupied bucket with equal probability, and from it the better of

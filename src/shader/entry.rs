@@ -7,6 +7,9 @@ use crate::suggest::did_you_mean;
 use naga::{Function, Handle, Module, Statement};
 use std::collections::HashSet;
 
+/// The most functions that a message names.
+const MOST_NAMED: usize = 16;
+
 /// A function, or an entry point.
 #[derive(Clone, Copy, Debug)]
 pub(super) enum Entry {
@@ -70,9 +73,13 @@ pub(super) fn chosen(source: &Source, name: Option<&str>) -> Result<(Entry, Stri
         several => {
             let names: Vec<&str> = several.iter().map(|(_, name)| name.as_str()).collect();
             let first = names.first().copied().unwrap_or_default();
+            let more = match names.len().saturating_sub(MOST_NAMED) {
+                0 => String::new(),
+                more => format!(" and {more} more"),
+            };
+            let named = names[..names.len().min(MOST_NAMED)].join(", ");
             whole(format!(
-                "it has several functions: {}; say which, as in --entry {first}",
-                names.join(", ")
+                "it has several functions: {named}{more}; say which, as in --entry {first}"
             ))
         }
     }

@@ -1,6 +1,7 @@
 //! HLSL and Slang: compiled to SPIR-V by a compiler of the machine, or read as a snippet.
 
 use super::Error;
+use super::depth::check_depth;
 use super::language::Language;
 use super::signature::{CALLER, Signature, caller, signatures, uncalled};
 use super::source::Source;
@@ -73,6 +74,8 @@ pub(super) fn compiled(
     entry: Option<&str>,
 ) -> Result<Option<Compiled>, Error> {
     let text = &written.text;
+    // What compilers take too much memory for, too.
+    check_depth(path, written, text)?;
     let all = signatures(text);
     let signature = chosen(path, text, &all, entry)?;
     let whole = |message: String| Error::Whole { path: path.to_owned(), message };

@@ -20,6 +20,7 @@ mod domain;
 mod error;
 mod formula;
 mod mesh;
+mod parallel;
 mod sampling;
 mod splits;
 

@@ -1,8 +1,8 @@
 //! The rows of a function: where it is evaluated for either split.
 
+use super::parallel::in_parallel;
 use super::sampling::{self, MOST_AXES, Samples, Sampling, adaptive, jittered, low_discrepancy};
 use crate::dataset::{Axis, Spacing, Split, combinations, grid_weights};
-use rayon::prelude::*;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
 /// A function called with the work units done so far and their total, from any thread.
@@ -175,15 +175,13 @@ impl Rows<'_> {
             let point: Vec<f64> = point.iter().copied().map(f64::from).collect();
             function(&point)
         };
-        let slices: Vec<Result<Vec<Value>, E>> = points
-            .par_chunks(points.len().div_ceil(slices))
-            .map(|slice| {
-                let slice = slice.iter().map(at).collect();
-                self.one_more();
-                slice
-            })
-            .collect();
-        let values = slices.into_iter().collect::<Result<Vec<_>, E>>()?.concat();
+        let slices: Vec<&[Vec<f32>]> = points.chunks(points.len().div_ceil(slices)).collect();
+        let evaluated = in_parallel(&slices, |slice| {
+            let values = slice.iter().map(at).collect::<Result<Vec<Value>, E>>();
+            self.one_more();
+            values
+        });
+        let values = evaluated?.concat();
         let outputs = values.first().map_or(0, |value| value.outputs.len());
         let mut columns = vec![Vec::with_capacity(points.len()); self.axes.len() + outputs];
         let mut largest_error = 0.0_f64;

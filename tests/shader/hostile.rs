@@ -28,6 +28,8 @@ fn many_functions_are_read() {
     }
     says(&tried("many.wgsl", &wgsl, &[1.0]).unwrap_err(), &["several functions", "--entry g0"]);
     says(&tried("many.glsl", &glsl, &[1.0]).unwrap_err(), &["several functions", "--entry g0"]);
+    let told = tried("many.wgsl", &wgsl, &[1.0]).unwrap_err().to_string();
+    assert!(told.len() < 300, "{told}");
     let with = options("g7", &[], &[], &[]);
     let shader = Shader::parse("many.wgsl".as_ref(), wgsl.into(), &with).unwrap();
     assert_eq!(shader.at(&[2.0]).unwrap(), [14.0]);
@@ -120,6 +122,19 @@ fn endless_and_long_loops_end() {
         if (fract(y * f32(i)) < 0.5) { break; } y += 1.0; } return y; }
 fn f(x: f32) -> f32 { var y = x; for (var i = 0; i < 40; i++) { y += g(y); } return y; }";
     assert!(tried("paths.wgsl", slow, &[0.5]).is_ok());
+}
+
+/// Every sample of an endless loop runs into the bound, but not all are tried.
+#[test]
+fn functions_that_fail_everywhere_fail_once() {
+    let (domain, text) =
+        ("x=0..1", "fn f(x: f32) -> f32 { var y = x; loop { y += 1.0; } return y; }");
+    let start = Instant::now();
+    let shader = read("endless.wgsl", text).unwrap();
+    let truth = shader.truth(&lgp::truth::parse_domain(domain).unwrap()).unwrap();
+    let told = truth.dataset(None, &|_, _| ()).unwrap_err().to_string();
+    assert!(told.contains("more than 100000000 steps"), "{told}");
+    assert!(start.elapsed() < 4 * PATIENCE, "{:?}", start.elapsed());
 }
 
 #[test]

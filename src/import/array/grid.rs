@@ -10,8 +10,11 @@ impl Array {
     /// Returns the outputs of a dataset on a full grid of its inputs: the first input along x, ascending,
     /// the second along y, and so on; an input of one value is no axis. The grid is that of the
     /// search split if it is said to be one, else that of all rows of both splits, else that of the
-    /// search split's rows; `None` if none is one.
-    pub fn of_grid(dataset: &Dataset) -> Option<Array> {
+    /// search split's rows; `None` if none is one. With `split`, it is that of its rows.
+    pub fn of_grid(dataset: &Dataset, split: Option<&Split>) -> Option<Array> {
+        if let Some(split) = split {
+            return of_splits(dataset, &[split]);
+        }
         let both = [&dataset.search, &dataset.validation];
         let (all, search) = (&both[..], &both[..1]);
         let first = if dataset.search.grid.is_empty() { all } else { search };
@@ -102,7 +105,7 @@ mod tests {
     #[test]
     fn a_grid_goes_through_a_dataset_and_files_and_back() {
         let (dataset, _) = Layout::default().dataset("grid.npy".as_ref(), &grid()).unwrap();
-        let back = Array::of_grid(&dataset).unwrap();
+        let back = Array::of_grid(&dataset, None).unwrap();
         assert_eq!((&back.size, &back.values), (&grid().size, &grid().values));
         for (name, bytes) in [("g.npy", to_npy(&back)), ("g.exr", to_exr(&back).unwrap())] {
             let read = parse(name.as_ref(), &bytes, &Request::default()).unwrap().unwrap();
@@ -118,7 +121,7 @@ mod tests {
         let curve = Array { size: vec![40], channels: vec!["y".into()], ..grid() };
         let curve = Array { values: curve.values[..40].to_vec(), ..curve };
         let (dataset, _) = Layout::default().dataset("curve.npy".as_ref(), &curve).unwrap();
-        assert_eq!(Array::of_grid(&dataset).unwrap().values, curve.values);
+        assert_eq!(Array::of_grid(&dataset, None).unwrap().values, curve.values);
         let search = Array::of_rows(&dataset, &[&dataset.search]);
         assert!(search.size[0] < 40);
     }
@@ -127,7 +130,7 @@ mod tests {
     fn rows_with_a_hole_are_no_grid() {
         let (mut dataset, _) = Layout::default().dataset("grid.npy".as_ref(), &grid()).unwrap();
         dataset.search.columns.iter_mut().for_each(|column| column.truncate(column.len() - 1));
-        assert_eq!(Array::of_grid(&dataset), None);
+        assert_eq!(Array::of_grid(&dataset, None), None);
         assert!(to_exr(&Array { size: vec![2, 3, 4], ..Array::default() }).is_err());
     }
 }

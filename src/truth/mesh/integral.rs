@@ -3,6 +3,7 @@
 use super::{Mesh, Rows, Tile};
 use crate::dataset::Split;
 use crate::truth::Error;
+use crate::truth::parallel::in_parallel;
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 use std::sync::Arc;
@@ -95,8 +96,8 @@ impl Mesh {
         let first: Vec<Sampled> =
             mesh.tiles.iter().map(|tile| (tile.clone(), Arc::clone(&mesh.known[tile]))).collect();
         let parts = mesh.judged(&first, formulas);
-        let mut left = evaluations;
         // At first all are halved: there are no error bars before.
+        let mut left = evaluations.saturating_sub(2 * self.points.count() * parts.len());
         let Some(mut parts) = mesh.halved(parts, formulas, stopped)? else { return Ok(None) };
         loop {
             let totals = totals(&parts);
@@ -149,13 +150,13 @@ impl Mesh {
     ) -> Result<Option<Vec<Part>>, Error> {
         let halves = |part: &Part| part.tile.halved(part.axis).map_or(Vec::new(), Vec::from);
         let tiles: Vec<Tile> = parts.iter().flat_map(halves).collect();
-        let sampled = tiles.into_par_iter().with_max_len(1).map(|tile| match stopped() {
+        let sampled = in_parallel(&tiles, |tile| match stopped() {
             true => Ok(None),
-            false => self.rows_of(&tile).map(|rows| Some((tile, Arc::new(rows)))),
-        });
-        let sampled: Vec<Result<Option<Sampled>, Error>> = sampled.collect();
-        let sampled: Option<Vec<Sampled>> = sampled.into_iter().collect::<Result<_, _>>()?;
-        let Some(sampled) = sampled else { return Ok(None) };
+            false => self.rows_of(tile).map(|rows| Some((tile.clone(), Arc::new(rows)))),
+        })?;
+        let Some(sampled) = sampled.into_iter().collect::<Option<Vec<Sampled>>>() else {
+            return Ok(None);
+        };
         let mut judged = self.judged(&sampled, formulas).into_iter();
         let mut halved = Vec::with_capacity(2 * parts.len());
         for part in parts {

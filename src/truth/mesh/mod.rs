@@ -30,9 +30,9 @@ pub use integral::{DomainError, Formulas};
 pub use refine::Norm;
 pub use tile::Tile;
 
+use super::parallel::in_parallel;
 use super::{Error, Truth};
 use crate::dataset::Split;
-use rayon::prelude::*;
 use rule::Points;
 use std::collections::HashMap;
 use std::ops::Range;
@@ -100,17 +100,15 @@ impl Mesh {
     /// As [`Truth::at`], of the first tile that has such a point.
     pub fn sample(&mut self, stopped: &(dyn Fn() -> bool + Sync)) -> Result<bool, Error> {
         let known = &self.known;
-        let unknown: Vec<&Tile> =
-            self.tiles.iter().filter(|tile| !known.contains_key(*tile)).collect();
-        let sampled = unknown.par_iter().with_max_len(1).map(|tile| match stopped() {
+        let unknown = self.tiles.iter().filter(|tile| !known.contains_key(*tile));
+        let unknown: Vec<Tile> = unknown.cloned().collect();
+        let sampled = in_parallel(&unknown, |tile| match stopped() {
             true => Ok(None),
             false => self.rows_of(tile).map(Some),
-        });
-        let sampled: Vec<Result<Option<Rows>, Error>> = sampled.collect();
-        let unknown: Vec<Tile> = unknown.into_iter().cloned().collect();
+        })?;
         let mut is_whole = true;
         for (tile, rows) in unknown.into_iter().zip(sampled) {
-            match rows? {
+            match rows {
                 Some(rows) => drop(self.known.insert(tile, Arc::new(rows))),
                 None => is_whole = false,
             }
