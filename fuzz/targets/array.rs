@@ -47,6 +47,6 @@ fuzz_target!(|content: &[u8]| {
     let Ok((dataset, understood)) = Layout::default().dataset(path, &array) else { return };
     assert!(!understood.is_empty());
     dataset.validate().expect("what is imported is a dataset");
-    let grid = Array::of_grid(&dataset).expect("all texels are a grid");
+    let grid = Array::of_grid(&dataset, None).expect("all texels are a grid");
     assert_eq!(grid.size, array.size);
 });

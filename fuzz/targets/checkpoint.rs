@@ -73,7 +73,7 @@ static BENCH: LazyLock<Bench> = LazyLock::new(|| {
         let mut search = Search::new(problem.clone(), method.clone()).expect("a method");
         search.advance();
         let run = Run::of(&problem, &method);
-        let bytes = Checkpoint::bytes(&run, search.state(), "", &Census::default());
+        let bytes = Checkpoint::bytes(&run, search.state(), "", &Census::default(), None);
         let seed_written = std::fs::write(seed, without_zeros(&bytes[..bytes.len() - 32]));
         seed_written.expect("there is room");
     }
