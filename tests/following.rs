@@ -8,7 +8,7 @@ use command::succeed;
 use lgp::dataset::{Dataset, Split};
 use lgp::fit::Measure;
 use lgp::program::{Names, parse};
-use lgp::run::{Budget, Session};
+use lgp::run::{Budget, Census, Checkpoint, Followed, Session};
 use lgp::search::{FrontMember, Goal, Method, Problem, Search, integrate};
 use lgp::targets::{self, Recipe};
 use lgp::truth::{DomainError, Mesh, Norm, Truth, parse_domain};
@@ -282,4 +282,32 @@ fn every_value_of_a_targets_truth_is_that_of_its_data() {
             assert_eq!(values, given, "{}", target.name);
         }
     }
+}
+
+#[test]
+fn damaged_records_of_samples_are_refused_or_harmless() {
+    let data = truth("y = exp2(-30*x)", "x=0..1").dataset(Some(64), &|_, _| ()).unwrap();
+    let truth = truth("y = exp2(-30*x)", "x=0..1");
+    let problem = || Problem::of(data.clone()).max_cost(3.0).build().unwrap();
+    let method = Method { islands: 1, candidates: 40, ..Method::default() };
+    let mut search = Search::new(problem(), method.clone()).unwrap();
+    search.advance();
+    let resumed = |followed: &str| {
+        let run = lgp::run::Run::of(&problem(), &method);
+        let checkpoint = Checkpoint {
+            run: lgp::run::Run { seconds: 1.0, ..run },
+            state: search.state().clone(),
+            trace: String::new(),
+            census: Census::default(),
+            followed: Some(ron::from_str::<Followed>(followed).unwrap()),
+        };
+        let budget = Budget { generations: Some(3), ..Budget::default() };
+        let session = Session::resume(problem(), checkpoint).unwrap().budget(budget);
+        session.following(truth.clone()).map(|mut session| session.run(|_| ()).unwrap())
+    };
+    // 0 never doubles; half of the domain.
+    let outcome = resumed("(tiles: [(halves: [])], next: 0, has_begun: false)").unwrap();
+    assert_eq!(outcome.run.generations, 3);
+    let half = "(tiles: [(halves: [(axis: 0, upper: true)])], next: 16, has_begun: true)";
+    assert!(resumed(half).unwrap_err().to_string().contains("cover the domain"));
 }

@@ -32,6 +32,13 @@ pub struct Followed {
     has_begun: bool,
 }
 
+impl Followed {
+    /// Returns true if the search was not on the dataset's own samples any more.
+    pub(super) fn has_begun(&self) -> bool {
+        self.has_begun
+    }
+}
+
 /// A mesh that follows a search.
 #[derive(Clone, Debug)]
 pub(super) struct Following {
@@ -84,6 +91,8 @@ impl Following {
         let new = Following::new(truth.clone(), search.problem().dataset());
         let rows = search.problem().dataset().search.rows();
         let mesh = Mesh::of_tiles(truth, rows, tiles).ok_or(FollowError::Damaged)?;
+        // A record may be damaged: 0 would never double.
+        let next = next.max(FIRST);
         let mut following = Following { mesh, next, has_begun, ..new };
         if has_begun {
             following.mesh.sample(&|| false)?;
@@ -127,8 +136,8 @@ impl Following {
         }
         self.has_begun = true;
         search.judge_anew(&deadline.moment_alone());
-        while self.next <= search.generation() {
-            self.next *= 2;
+        while self.next <= search.generation() && self.next < u64::MAX {
+            self.next = self.next.saturating_mul(2);
         }
         Ok(())
     }

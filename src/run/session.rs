@@ -5,16 +5,15 @@ use super::improvement::Improvement;
 use super::journal::Journal;
 use super::record::machine;
 use super::{
-    Budget, Census, Checkpoint, Folder, FollowError, Followed, RecordError, Run, Timetable,
-    TracePoint, snippet,
+    Budget, Checkpoint, Folder, FollowError, Followed, Outcome, Phase, Progress, RecordError, Run,
+    Timetable, TracePoint,
 };
 use crate::deadline::{Deadline, Stop};
-use crate::emit::Language;
 use crate::fit::Measure;
 use crate::program::{Draft, ParseError, parse};
 use crate::scene::Scene;
 use crate::search::{
-    Enumeration, Front, FrontMember, Method, Problem, ScoredIncumbent, Search, SetupError, Work,
+    Enumeration, Front, Method, Problem, ScoredIncumbent, Search, SetupError, Work,
 };
 use crate::truth::Truth;
 use std::path::{Path, PathBuf};
@@ -79,58 +78,6 @@ struct Kept {
     /// True if the folder still holds another run, which this one is to replace.
     replaces: bool,
     last_checkpoint: Instant,
-}
-
-/// The progress of a session after a step.
-#[derive(Clone, Debug)]
-pub struct Progress {
-    /// The state of the search.
-    pub point: TracePoint,
-    /// The measure of the point's errors.
-    pub measure: Measure,
-    /// The share of the budget that is spent, in [0, 1].
-    pub share: f64,
-}
-
-/// A phase after the search; they follow in this order.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Phase {
-    /// The constants of the front are fitted.
-    Polish,
-    /// The constants of the front in maximum error are fitted.
-    PolishForMaximum,
-    /// The errors of both over the whole domain are integrated.
-    Integrate,
-    /// Verdicts on the front.
-    Prove,
-    /// Verdicts on that front.
-    ProveForMaximum,
-}
-
-/// The outcome of a search.
-#[derive(Clone, Debug)]
-pub struct Outcome {
-    /// The record of the run.
-    pub run: Run,
-    /// The front in the measure that was minimised.
-    pub front: Front,
-    /// The front in maximum error, constants fitted for that.
-    pub minimax: Front,
-    /// What [`Session::compared_with`] was given.
-    pub published: Vec<ScoredIncumbent>,
-    /// The text of `trace.csv`.
-    pub trace: String,
-    /// The census of its formulas.
-    pub census: Census,
-    /// The number of formulas in the search's archive.
-    pub archived: usize,
-}
-
-impl Outcome {
-    /// Returns a member as a function ready to paste.
-    pub fn snippet(&self, member: &FrontMember, language: Language) -> String {
-        snippet(&self.run, member, language)
-    }
 }
 
 impl Session {
@@ -329,7 +276,7 @@ impl Session {
         let (starting, searching) = (times.starting(), times.search());
         self.times = Some(times);
         if self.before > 0.0 {
-            if self.followed.take().is_some() {
+            if self.followed.take().is_some_and(|followed| followed.has_begun()) {
                 // Without the truth it goes on with the dataset's own rows.
                 self.search.judge_anew(&searching.moment_alone());
             }

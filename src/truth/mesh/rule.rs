@@ -1,9 +1,8 @@
 //! The points of a tile: as many in each.
 
 use super::Tile;
-use crate::num::low_discrepancy::Sobol;
 use crate::quadrature::Rule;
-use crate::truth::MOST_AXES;
+use crate::truth::sampling::low_discrepancy;
 
 /// The Gauss points along each axis, by the number of axes. By hand: tiles of 8, 16 and 8 points.
 const GAUSS: [usize; 3] = [8, 4, 2];
@@ -40,12 +39,7 @@ impl Points {
                 let nodes = rule.points().iter().filter(|point| point.weight > 0.0);
                 Inner::Gauss(nodes.map(|at| (0.5 + 0.5 * at.node, 0.5 * at.weight)).collect())
             }
-            None => {
-                let sobol = Sobol::<MOST_AXES>::new();
-                let half = 0.5 / SCATTERED as f64;
-                let point = |index| sobol.point(index)[..axes].iter().map(|x| x + half).collect();
-                Inner::Scattered((0..SCATTERED).map(point).collect())
-            }
+            None => Inner::Scattered(low_discrepancy(0..SCATTERED, axes).points),
         };
         Points { axes, inner }
     }
