@@ -40,7 +40,7 @@ pub struct Outcome {
     pub front: Front,
     /// The front in maximum error, constants fitted for that.
     pub minimax: Front,
-    /// What [`Session::compared_with`] was given.
+    /// What [`super::Session::compared_with`] was given.
     pub published: Vec<ScoredIncumbent>,
     /// The text of `trace.csv`.
     pub trace: String,
