@@ -159,6 +159,9 @@ impl From<SubjectError> for Failure {
             SubjectError::Dataset(error) => error.into(),
             SubjectError::Scene(error) => error.into(),
             error @ SubjectError::OtherData { .. } => Failure::new(Exit::Input, error),
+            error @ (SubjectError::Derived { .. } | SubjectError::DerivedTwice { .. }) => {
+                Failure::usage(format!("--derive {error}"))
+            }
         }
     }
 }

@@ -8,11 +8,14 @@ use crate::cost::Profile;
 use crate::dataset::{Dataset, Split};
 use crate::fit::Measure;
 use crate::grammar::Grammar;
-use crate::program::{Draft, parse};
-use crate::run::{Budget, Folder, Holding, RecordError, Session, Subject, in_the_way, noted};
+use crate::op::Op;
+use crate::program::{Draft, Hole, Template};
+use crate::run::{
+    Budget, Folder, Holding, RecordError, Session, Subject, guess, in_the_way, noted,
+};
 use crate::scene::Scene;
 use crate::search::{Goal, Method, Problem, Requirement, Transform, USUAL_GPU, USUAL_GRAMMAR};
-use crate::suggest::did_you_mean;
+use crate::suggest::{did_you_mean, nearest};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
@@ -37,11 +40,17 @@ impl Plan {
         let gpu = args.gpu.as_deref().unwrap_or(USUAL_GPU);
         let profile = Profile::find(gpu)?;
         let usual = Goal::default();
+        let template = template(args, dataset)?;
+        if let Some(template) = &template {
+            common.note(&described(template));
+        }
         let tiers_spend = subject.scene.as_ref().and_then(|scene| scene.max_cost());
         let goal = Goal {
             measure: measure(args.loss, &dataset.name, &dataset.search)?,
-            requirements: requirements(args, dataset)?,
+            requirements: requirements(args, dataset, template.as_ref())?,
             transforms: transforms(&args.transform, dataset)?,
+            template: args.template.clone(),
+            cost_of: args.cost_of.unwrap_or_default(),
             max_cost: args.max_cost.or(tiers_spend).unwrap_or(usual.max_cost),
         };
         let usual = Method::default();
@@ -51,7 +60,8 @@ impl Plan {
             immigrants: args.immigrants.unwrap_or(usual.immigrants),
             ..usual
         };
-        check_operations(&goal.requirements, &guesses(&args.guess, dataset)?, &grammar, common)?;
+        let guesses = guesses(&args.guess, dataset, template.as_ref())?;
+        check_operations(&goal.requirements, &guesses, &grammar, common)?;
         let (folder, replaces) = match &args.out {
             Some(out) => (asked_for(out, args.force)?, Holding::of(out) != Holding::NoRun),
             None => (free(&dataset.name, common)?, false),
@@ -67,6 +77,7 @@ impl Plan {
             .guesses(&args.guess)?
             .exhaustive(args.exhaustive)
             .fixed_samples(args.fixed_samples)
+            .derived(&args.derive)
             .of_file(file, subject.whole.hash(), subject.scene.clone())
             .asked_by(gpu, command())
             .kept_in(folder, replaces);
@@ -85,17 +96,28 @@ pub(super) fn following(session: Session, subject: &Subject) -> Result<Session, 
 
 /// Returns the data to search formulas for: a dataset, or the samples of a function.
 fn subject(args: &Args, common: &Common) -> Result<Subject, Failure> {
-    let choose = |data: &Dataset| args.columns.of(data);
+    let assigned = |data: &Dataset| {
+        let text = args.template.as_ref().filter(|_| args.columns.outputs_asked().is_none())?;
+        // What cannot be read is told of later.
+        Template::assigned(text, &data.names()).ok().filter(|outputs| !outputs.is_empty())
+    };
+    let choose = |data: &Dataset| {
+        let data = args.columns.of(data)?;
+        match assigned(&data) {
+            Some(outputs) => data.select(None, Some(&outputs)),
+            None => Ok(data),
+        }
+    };
     let (file, scene) = (args.dataset.as_deref(), args.scene.as_deref());
     match (args.sampled.truth(file, args.columns.outputs_asked())?, file) {
         (Some(truth), _) => {
             let whole = args.sampled.dataset(&truth, common)?;
             let scene = scene.map(|name| Scene::find(name, file.unwrap_or(Path::new(""))));
-            Ok(Subject::new(whole, scene.transpose()?, choose)?)
+            Ok(Subject::new(whole, scene.transpose()?, &args.derive, choose)?)
         }
         (None, Some(path)) => {
             args.sampled.refuse_functions()?;
-            Ok(Subject::load(path, scene, choose)?)
+            Ok(Subject::load_with(path, scene, &args.derive, choose)?)
         }
         (None, None) => Err(Failure::usage("give a dataset, a shader, or a function by --formula")),
     }
@@ -178,9 +200,45 @@ pub(super) fn budget(args: &Args) -> Budget {
     Budget { seconds: args.time.map(|time| time.as_secs_f64()), generations: args.generations }
 }
 
-pub(super) fn guesses(texts: &[String], dataset: &Dataset) -> Result<Vec<Draft>, Failure> {
+fn guesses(
+    texts: &[String],
+    dataset: &Dataset,
+    template: Option<&Template>,
+) -> Result<Vec<Draft>, Failure> {
     let names = dataset.names();
-    texts.iter().map(|text| Ok(parse(text, &names)?.into_draft())).collect()
+    Ok(texts.iter().map(|text| guess(text, &names, template)).collect::<Result<_, _>>()?)
+}
+
+/// Returns the template that is asked for.
+fn template(args: &Args, dataset: &Dataset) -> Result<Option<Template>, Failure> {
+    let Some(text) = &args.template else { return Ok(None) };
+    let parsed = Template::parse(text, &dataset.names());
+    Ok(Some(parsed.map_err(|error| Failure::input(format!("--template: {error}")))?))
+}
+
+/// Says what is to be found, lest a misspelt operation pass for a hole.
+fn described(template: &Template) -> String {
+    let hole = |hole: &Hole| {
+        let meant = match hole.is_constant() {
+            true => String::new(),
+            false => misspelt(&hole.name)
+                .map(|name| format!(" (not the operation `{name}`)"))
+                .unwrap_or_default(),
+        };
+        let calls =
+            if hole.calls > 1 { format!(", called {} times", hole.calls) } else { "".into() };
+        format!("{}{calls}{meant}", hole.signature())
+    };
+    let holes: Vec<String> = template.holes().iter().map(hole).collect();
+    format!("to be found: {}", holes.join("; "))
+}
+
+/// The fewest letters of a name that may be a misspelt operation: shorter ones are near everything.
+const LETTERS: usize = 3;
+
+fn misspelt(name: &str) -> Option<&'static str> {
+    let operations = Op::ALL.iter().map(|op| op.name());
+    nearest(name, operations).filter(|_| name.len() >= LETTERS)
 }
 
 /// Returns the measure to minimise; weights that are asked for must be there.
@@ -194,10 +252,15 @@ fn measure(loss: Option<Measure>, name: &str, split: &Split) -> Result<Measure, 
     Ok(loss.unwrap_or(Measure::usual(split)))
 }
 
-pub(super) fn requirements(args: &Args, dataset: &Dataset) -> Result<Vec<Requirement>, Failure> {
+pub(super) fn requirements(
+    args: &Args,
+    dataset: &Dataset,
+    template: Option<&Template>,
+) -> Result<Vec<Requirement>, Failure> {
     let names = dataset.names();
+    let holes = template.map_or(&[][..], Template::holes);
     let read = |text: &String| {
-        Requirement::parse(text, &names)
+        Requirement::parse_of(text, &names, holes)
             .map_err(|reason| Failure::usage(format!("--require {reason}")))
     };
     let requirements: Vec<Requirement> = args.require.iter().map(read).collect::<Result<_, _>>()?;

@@ -20,7 +20,9 @@ pub fn resumed(args: &Args, common: &Common) -> Result<Plan, Failure> {
         (Some(out), _) => out.clone(),
         (None, Some(dataset)) => {
             let subject =
-                Subject::load(dataset, args.scene.as_deref(), |data| args.columns.of(data))?;
+                Subject::load_with(dataset, args.scene.as_deref(), &args.derive, |data| {
+                    args.columns.of(data)
+                })?;
             the_one_of(&subject.dataset.name)?
         }
         (None, None) => {
@@ -123,13 +125,17 @@ fn difference(
     compare("--loss", args.loss.map(|loss| loss.to_string()), goal.measure.to_string());
     compare("--inputs", args.columns.inputs(), names.inputs.join(","));
     compare("--outputs", args.columns.outputs(), names.outputs.join(","));
+    compare("--template", args.template.clone(), goal.template.clone().unwrap_or_default());
+    compare("--cost-of", args.cost_of.map(|of| of.to_string()), goal.cost_of.to_string());
     if args.fixed_samples && !run.fixed_samples {
         compare("--fixed-samples", Some("given".into()), String::new());
     }
     let some = |list: &[String]| (!list.is_empty()).then(|| list.join(","));
     compare("--guess", some(&args.guess), run.guesses.join(","));
+    compare("--derive", some(&args.derive), run.derived.join(","));
     if !args.require.is_empty() {
-        let requirements = requirements(args, dataset)?;
+        let template = goal.template(&names).map_err(Failure::input)?;
+        let requirements = requirements(args, dataset, template.as_ref())?;
         let given = Run { goal: Goal { requirements, ..Goal::default() }, ..run.clone() };
         compare("--require", Some(given.requirements()), run.requirements());
     }

@@ -10,7 +10,7 @@ use crate::emit::Language;
 use crate::fit::Measure;
 use crate::report::Report;
 use crate::run::{FRONT_TABLE, MemberRecord, Outcome, Run, Session};
-use crate::search::{MAX_ISLANDS, SetupError};
+use crate::search::{CostOf, MAX_ISLANDS, SetupError};
 use crate::wording::front_table;
 use std::path::{Path, PathBuf};
 use std::time::Duration;
@@ -60,13 +60,26 @@ pub struct Args {
     pub(super) loss: Option<Measure>,
     /// Conditions on every formula: finite, range=0..1, half=1e-2 (error in f16), rising=INPUT,
     /// falling=INPUT, ends=INPUT (exact at the ends of its domain), uses=OPERATION or uses=INPUT;
-    /// `bias.range=0..1` is for one output
+    /// `bias.range=0..1` is for one output, or one hole of a template
     #[arg(long, value_name = "CONDITION", value_delimiter = ',')]
     pub(super) require: Vec<String>,
     /// Search for rcp, log2 or sqrt of an output; formulas then apply the inverse, and pay for it
     /// unless algebra removes it. The error is measured on the output itself
     #[arg(long, value_name = "OUTPUT=F", value_delimiter = ',')]
     pub(super) transform: Vec<String>,
+    /// A formula in which functions are to be found, as in "y = D(x, f(roughness))*g(x)" with
+    /// D defined before: each function that is called and nowhere defined, and each constant
+    /// written $a
+    #[arg(long, value_name = "TEMPLATE", conflicts_with = "transform")]
+    pub(super) template: Option<String>,
+    /// What is costed of a template: the whole formula, or only what fills its holes [default:
+    /// whole]
+    #[arg(long, value_name = "whole|holes", requires = "template")]
+    pub(super) cost_of: Option<CostOf>,
+    /// A further output, computed of the dataset's columns, as in "back = srgb": what a template's
+    /// formula is measured against; can be given several times
+    #[arg(long, value_name = "NAME = EXPRESSION")]
+    pub(super) derive: Vec<String>,
     /// The number of populations that evolve apart; the same seed repeats a search only with the
     /// same number [default: 8]
     #[arg(long, value_name = "N")]
@@ -78,7 +91,8 @@ pub struct Args {
     /// The share of candidates made at random, not from others; 1 for random restarts [default: 0]
     #[arg(long, value_name = "SHARE", value_parser = argument::share)]
     pub(super) immigrants: Option<f64>,
-    /// A formula over the dataset's columns to start from; can be given several times
+    /// A formula over the dataset's columns to start from, or for a template some of its holes, as
+    /// in "f(x) = 2*x; $a = 0.5"; can be given several times
     #[arg(long, value_name = "FORMULA")]
     pub(super) guess: Vec<String>,
     /// Keep the samples of a function as they are; otherwise they follow the search to where its

@@ -117,9 +117,20 @@ pub fn shorten_minimax(
     samples: &Samples,
     allowance: f64,
 ) -> f64 {
+    shorten_minimax_free(fitter, draft, samples, allowance, |_| true)
+}
+
+/// As [`shorten_minimax`], but rounds only the constants whose index is free.
+pub(crate) fn shorten_minimax_free(
+    fitter: &mut Fitter,
+    draft: &mut Draft,
+    samples: &Samples,
+    allowance: f64,
+    is_free: impl Fn(usize) -> bool,
+) -> f64 {
     let mut comparison = Comparison::by_maximum(samples);
     let limit = comparison.error(fitter, draft) * (1.0 + allowance);
-    for constant in 0..draft.consts.len() {
+    for constant in (0..draft.consts.len()).filter(|&constant| is_free(constant)) {
         let exact = draft.consts[constant];
         for digits in 0..=MAX_DIGITS {
             if fitter.is_cut(samples) {

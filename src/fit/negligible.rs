@@ -53,6 +53,36 @@ pub fn drop_negligible_minimax(
     });
 }
 
+/// As [`drop_negligible`], or by the largest error, of what becomes of a child: its constants are
+/// the first of the whole, whose others stay.
+pub(crate) fn drop_negligible_in(
+    fitter: &mut Fitter,
+    child: &mut Draft,
+    samples: &Samples,
+    allowance: f64,
+    by_maximum: bool,
+    whole: impl Fn(&Draft) -> Draft,
+) {
+    let mut comparison = match by_maximum {
+        true => Comparison::by_maximum(samples),
+        false => Comparison::by_squares(samples),
+    };
+    let limit = comparison.error(fitter, &whole(child)) * (1.0 + allowance);
+    drop_within(limit, child, |trial| {
+        if fitter.is_cut(samples) {
+            return f64::INFINITY;
+        }
+        let (mut formula, own) = (whole(trial), trial.consts.len());
+        let error = comparison.error(fitter, &formula);
+        if by_maximum || error <= limit || error >= limit * NEAR {
+            return error;
+        }
+        fitter.fit_free(&mut formula, comparison.samples(), MAKE_UP, |i| i < own);
+        trial.consts.copy_from_slice(&formula.consts[..own]);
+        comparison.error(fitter, &formula)
+    });
+}
+
 fn drop_within(limit: f64, draft: &mut Draft, mut error: impl FnMut(&mut Draft) -> f64) {
     if !limit.is_finite() {
         return;

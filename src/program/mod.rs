@@ -20,13 +20,17 @@ mod exact;
 mod hash;
 mod outer;
 mod rewrite;
+mod shape;
 pub(crate) mod spelling;
+mod template;
 mod text;
 
 pub use effective::{effective, effective_into, use_counts};
 pub use exact::ExactProgram;
 pub use hash::{Constants, structural_hash};
 pub use outer::Outer;
+pub use shape::{Reads, Shape};
+pub use template::{Hole, Template};
 pub use text::{
     ALWAYS_ASKED, Claim, FreeConstant, MAX_FORMULA, Names, ParseError, Parsed, Scope,
     format_constant, parse, parse_open, parse_template, print, print_expression, shortest,

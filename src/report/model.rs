@@ -140,6 +140,7 @@ impl Priced<'_> {
             validation: errors(&member.validation_error()),
             verdict: serde_json::Value::Null,
             formula: member.formula.clone(),
+            holes: member.holes.clone(),
             header: Vec::new(),
             code: Vec::new(),
             mathml: emit::mathml(&snippet),
@@ -161,6 +162,13 @@ fn facts(run: &Run, dataset: Option<&Dataset>) -> Vec<(String, String)> {
         fact("scene", format!("{}: {}", scene.name, scene.summary()));
     }
     fact("domain", run::domains(&run.inputs));
+    if !run.derived.is_empty() {
+        fact("derived outputs", run.derived.join("; "));
+    }
+    if let Some(template) = &run.goal.template {
+        fact("template", run::one_line(template));
+        fact("cost of", run.goal.cost_of.to_string());
+    }
     if !run.claims.is_empty() {
         fact("claims", run.claims.join("; "));
     }

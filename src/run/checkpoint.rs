@@ -1,7 +1,7 @@
 //! `checkpoint.bin`: all that a search needs to go on, in one file, so that its parts are always of
 //! one moment.
 //!
-//! A line of text says which program wrote it, as `LGPSTATE8 lgp 0.1.0`; then come the parts, in
+//! A line of text says which program wrote it, as `LGPSTATE9 lgp 0.1.0`; then come the parts, in
 //! postcard's encoding, and a checksum of all before it. The encoding does not describe itself, and
 //! random streams and rules of a search may change between versions, so a checkpoint is read only
 //! by the version that wrote it, and by [`LAYOUT`] alone.
@@ -15,7 +15,7 @@ use std::path::Path;
 
 /// The layout's number, raised whenever what is serialised of a search changes:
 /// `tests/checkpoint.rs` tells.
-const LAYOUT: u32 = 8;
+const LAYOUT: u32 = 9;
 
 const MAGIC: &str = "LGPSTATE";
 
@@ -103,7 +103,8 @@ impl Checkpoint {
             if !rest.is_empty() {
                 return Err("there is more than its parts".into());
             }
-            state.check(&run.goal, &run.method, run.inputs.len(), run.outputs.len())?;
+            run.goal.check(run.inputs.len(), run.outputs.len())?;
+            state.check(&run.goal, &run.method, &run.goal.shape(&run.names())?)?;
             census.check(run.inputs.len())?;
             check_trace(&trace, run.goal.measure)?;
             Ok(run)

@@ -22,6 +22,7 @@ impl Run {
         check_claims(Path::new("`claims`"), &self.claims, &self.names())
             .map_err(|error| error.to_string())?;
         self.goal.check(self.inputs.len(), self.outputs.len())?;
+        self.goal.template(&self.names())?;
         self.method.check()?;
         not_negative("seconds", self.seconds)?;
         let enumerated = self.enumeration.map(|enumeration| enumeration.cost);

@@ -41,7 +41,8 @@ impl Journal {
 
     fn note_anyway(&mut self, point: &TracePoint, search: &Search, names: &Names) {
         for member in search.archive().members() {
-            self.census.count(&search.problem().natural(&member.draft), names, point.seconds);
+            let formula = search.problem().formula_of(&member.draft);
+            self.census.count(&formula, names, point.seconds);
         }
         self.trace.push(point.clone());
     }

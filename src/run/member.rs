@@ -38,6 +38,9 @@ pub struct MemberRecord {
     pub verdict: VerdictRecord,
     /// Its text.
     pub formula: String,
+    /// What fills the holes of the template, if there is one.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub holes: Vec<String>,
 }
 
 impl MemberRecord {
@@ -57,6 +60,7 @@ impl MemberRecord {
             domain_errors: by_output(names, &member.domain),
             verdict: member.verdict.clone(),
             formula: member.formula.clone(),
+            holes: member.holes.clone(),
         }
     }
 
@@ -84,8 +88,14 @@ impl MemberRecord {
             },
             verdict: self.verdict,
             formula: self.formula,
+            holes: self.holes,
         };
         member.check()?;
+        let template = run.goal.template(names)?;
+        for hole in &member.holes {
+            let read = template.as_ref().map(|template| template.guess(hole));
+            read.ok_or("the run has no template")?.map_err(|error| error.to_string())?;
+        }
         Ok(member)
     }
 }

@@ -164,6 +164,7 @@ mod tests {
                 domain: Vec::new(),
                 verdict: VerdictRecord::default(),
                 formula: formula.into(),
+                holes: Vec::new(),
             }
         };
         (run, Front { measure: Measure::Rmse, members: members.iter().map(member).collect() })

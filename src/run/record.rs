@@ -30,6 +30,9 @@ pub struct Run {
     /// The scene that the dataset was cut to, if any.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub scene: Option<Scene>,
+    /// The outputs that were computed of the dataset's columns, as `name = expression`.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub derived: Vec<String>,
     /// The dataset's name.
     pub name: String,
     /// The input columns.

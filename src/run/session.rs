@@ -10,7 +10,7 @@ use super::{
 };
 use crate::deadline::{Deadline, Stop};
 use crate::fit::Measure;
-use crate::program::{Draft, ParseError, parse};
+use crate::program::{Draft, Names, ParseError, Scope, Template, parse_template};
 use crate::scene::Scene;
 use crate::search::{
     Enumeration, Front, Method, Problem, ScoredIncumbent, Search, SetupError, Work,
@@ -143,13 +143,14 @@ impl Session {
         self
     }
 
-    /// Adds formulas to start from, over the dataset's columns.
+    /// Adds formulas to start from, as [`guess`] reads them.
     ///
     /// # Errors
     /// The first formula that cannot be parsed.
     pub fn guesses(mut self, texts: &[String]) -> Result<Session, ParseError> {
-        let names = self.search.problem().dataset().names();
-        let read = |text: &String| Ok(parse(text, &names)?.into_draft());
+        let problem = self.search.problem();
+        let names = problem.dataset().names();
+        let read = |text: &String| guess(text, &names, problem.template());
         self.guesses = texts.iter().map(read).collect::<Result<_, ParseError>>()?;
         self.run.guesses = texts.to_vec();
         Ok(self)
@@ -164,6 +165,12 @@ impl Session {
     /// Records that the samples stay as they are, whatever they are samples of.
     pub fn fixed_samples(mut self, fixed: bool) -> Session {
         self.run.fixed_samples = fixed;
+        self
+    }
+
+    /// Records the outputs that were computed of the dataset's columns.
+    pub fn derived(mut self, derived: &[String]) -> Session {
+        self.run.derived = derived.to_vec();
         self
     }
 
@@ -453,6 +460,18 @@ impl Session {
             kept.folder.exchange(&outcome.run, &[outcome.files(), made_of_it].concat())?;
         }
         checkpointed
+    }
+}
+
+/// Parses a formula to start from: over the dataset's columns, its free constants starting at 1; or,
+/// if there is a template, one of its holes or several ([`Template::guess`]).
+///
+/// # Errors
+/// Text that is no such formula.
+pub fn guess(text: &str, names: &Names, template: Option<&Template>) -> Result<Draft, ParseError> {
+    match template {
+        Some(template) => template.guess(text),
+        None => Ok(parse_template(text, Scope::Dataset(names))?.program.into_draft()),
     }
 }
 

@@ -7,7 +7,7 @@ use crate::eval::OutputError;
 use crate::fit::Measure;
 use crate::num::Interval;
 use crate::program::shortest;
-use crate::search::FrontMember;
+use crate::search::{CostOf, FrontMember};
 use crate::stability::half_loss;
 use crate::truth::DomainError;
 use crate::wording::examination::at_most;
@@ -68,6 +68,10 @@ pub fn header(run: &Run, member: &FrontMember) -> Vec<String> {
     }
     header.extend(verdict_lines(&member.verdict));
     header.push(emit::formula_line(&member.formula));
+    if let Some(template) = run.goal.template.as_ref().filter(|_| !member.holes.is_empty()) {
+        header.push(format!("template: {}", one_line(template)));
+        header.extend(member.holes.iter().map(|hole| format!("with {hole}")));
+    }
     header
 }
 
@@ -86,6 +90,13 @@ fn error_lines(run: &Run, member: &FrontMember) -> Vec<String> {
     ]
 }
 
+/// Returns a text of several lines in one: a line's end is a statement's.
+pub fn one_line(text: &str) -> String {
+    let lines =
+        text.lines().map(|line| line.trim().trim_end_matches(';')).filter(|l| !l.is_empty());
+    lines.collect::<Vec<_>>().join("; ")
+}
+
 /// Returns the seed of a search, or those of a union.
 pub fn seeds(run: &Run) -> String {
     if run.sources.is_empty() {
@@ -97,7 +108,17 @@ pub fn seeds(run: &Run) -> String {
 }
 
 fn cost_line(member: &FrontMember, run: &Run) -> String {
-    let cycles = cycles_text(member.cost);
+    let mut cycles = cycles_text(member.cost);
+    if run.goal.cost_of == CostOf::Holes {
+        let profile = run.profile();
+        let whole = profile.map(|profile| profile.cost(&member.program).cycles);
+        let whole = whole.map_or_else(|| "?".to_owned(), cycles_text);
+        cycles = format!("{cycles} cycles of the template's holes, {whole} of the whole,");
+        return match member.registers {
+            Some(registers) => format!("cost: {cycles} {registers} registers on {}", run.gpu),
+            None => format!("cost: {cycles} on {}", run.gpu),
+        };
+    }
     match member.registers {
         Some(1) => format!("cost: {cycles} cycles, 1 register on {}", run.gpu),
         Some(registers) => format!("cost: {cycles} cycles, {registers} registers on {}", run.gpu),

@@ -18,6 +18,12 @@ pub enum SubjectError {
     Scene(#[from] scene::Error),
     #[error("{path}: not the data that the run was made with, by its hash", path = path.display())]
     OtherData { path: PathBuf },
+    #[error(
+        "`{text}`: a derived output is NAME = EXPRESSION over the data's columns, as in `back = srgb`"
+    )]
+    Derived { text: String },
+    #[error("`{name}`: a derived output needs a name that no column has")]
+    DerivedTwice { name: String },
 }
 
 /// A dataset as it is worked on.
@@ -41,21 +47,43 @@ impl Subject {
         scene: Option<&str>,
         choose: impl FnOnce(&Dataset) -> Result<Dataset, dataset::Error>,
     ) -> Result<Subject, SubjectError> {
-        let whole = Dataset::load(path)?;
-        let scene = scene.map(|name| Scene::find(name, path)).transpose()?;
-        Subject::new(whole, scene, choose)
+        Subject::load_with(path, scene, &[], choose)
     }
 
-    /// Cuts a dataset to a scene, if any, and then to a choice.
+    /// As [`Subject::load`], with derived outputs as for [`Subject::new`].
+    ///
+    /// # Errors
+    /// [`SubjectError`].
+    pub fn load_with(
+        path: &Path,
+        scene: Option<&str>,
+        derived: &[String],
+        choose: impl FnOnce(&Dataset) -> Result<Dataset, dataset::Error>,
+    ) -> Result<Subject, SubjectError> {
+        let whole = Dataset::load(path)?;
+        let scene = scene.map(|name| Scene::find(name, path)).transpose()?;
+        Subject::new(whole, scene, derived, choose)
+    }
+
+    /// Cuts a dataset to a scene, if any, adds outputs that are computed of its columns, each as
+    /// `name = expression`, and cuts it to a choice.
+    ///
+    /// # Errors
+    /// [`SubjectError`].
     pub fn new(
         whole: Dataset,
         scene: Option<Scene>,
+        derived: &[String],
         choose: impl FnOnce(&Dataset) -> Result<Dataset, dataset::Error>,
     ) -> Result<Subject, SubjectError> {
-        let dataset = match &scene {
-            Some(scene) => choose(&scene.over(&whole)?.dataset()?)?,
-            None => choose(&whole)?,
+        let mut dataset = match &scene {
+            Some(scene) => scene.over(&whole)?.dataset()?,
+            None => whole.clone(),
         };
+        if !derived.is_empty() {
+            dataset = with_derived(&dataset, derived)?;
+        }
+        let dataset = choose(&dataset)?;
         Ok(Subject { whole, scene, dataset: Arc::new(dataset) })
     }
 
@@ -81,7 +109,7 @@ impl Subject {
             return Err(SubjectError::OtherData { path: path.into() });
         }
         let names = run.names();
-        Subject::new(whole, run.scene.clone(), |dataset| {
+        Subject::new(whole, run.scene.clone(), &run.derived, |dataset| {
             dataset.select(Some(&names.inputs), Some(&names.outputs))
         })
     }
@@ -137,6 +165,28 @@ impl Subject {
         }
         Ok(found)
     }
+}
+
+/// Returns a dataset with further outputs that are computed of its columns.
+fn with_derived(dataset: &Dataset, derived: &[String]) -> Result<Dataset, SubjectError> {
+    let own = dataset.outputs.iter().map(|column| (column.name.clone(), column.name.clone()));
+    let mut outputs: Vec<(String, String)> = own.collect();
+    for text in derived {
+        let (name, expression) = text
+            .split_once('=')
+            .map(|(name, expression)| (name.trim(), expression.trim()))
+            .filter(|(name, expression)| !name.is_empty() && !expression.is_empty())
+            .ok_or_else(|| SubjectError::Derived { text: text.clone() })?;
+        let names = dataset.names();
+        let known = names.inputs.iter().chain(outputs.iter().map(|(known, _)| known));
+        if known.into_iter().any(|known| known == name) {
+            return Err(SubjectError::DerivedTwice { name: name.to_owned() });
+        }
+        outputs.push((name.to_owned(), expression.to_owned()));
+    }
+    let scene = Scene { name: "derived".into(), outputs, ..Scene::default() };
+    let with = scene.over(dataset)?.dataset()?;
+    Ok(Dataset { name: dataset.name.clone(), ..with })
 }
 
 /// Finds a run's dataset: at its path seen from here, or from the run's folder or one around it, as

@@ -7,14 +7,14 @@
 //! insertions cannot reach because of simplification.
 
 use super::polish::reads_only_constants;
+use super::problem::FormulaScratch;
 use super::vary::{insertion_count, insertions, random_constant};
 use super::{Problem, Search};
 use crate::archive::{Member, near_the_least};
-use crate::cost::CostScratch;
 use crate::deadline::Deadline;
 use crate::eval::Samples;
 use crate::fit::{Fitter, Measure, Rounds, Stop, minimax_free};
-use crate::program::{Arg, Constants, Draft, structural_hash};
+use crate::program::{Arg, Constants, Draft, Reads, Shape, structural_hash};
 use crate::simplify::Simplifier;
 use rand::SeedableRng;
 use rand_chacha::ChaCha8Rng;
@@ -64,8 +64,7 @@ impl Search {
         let members = best_of(&structures, &self.problem, &self.race, deadline);
         let children: Vec<Draft> = members.iter().map(|member| member.draft.clone()).collect();
         for member in members {
-            let draft = self.problem.formula(&member.draft).into_owned();
-            self.state.archive.offer(Member { draft, ..member });
+            self.state.archive.offer(member);
         }
         let is_whole = !deadline.is_past();
         self.inject_children(&children, deadline);
@@ -110,7 +109,7 @@ fn best_of(
             }
             problem.archive_loss(formula, loss, &mut fitter.evaluator)
         });
-        Some(member).filter(|member| problem.acceptable_on_samples(&problem.formula(&member.draft)))
+        Some(member).filter(|member| problem.child_acceptable(&member.draft))
     };
     near.into_par_iter().map_init(new_fitter, finish).flatten().collect()
 }
@@ -133,7 +132,7 @@ fn structures(
     let mut known = HashSet::new();
     let mut all: Vec<Draft> = Vec::new();
     let mut children = most.saturating_mul(CHILDREN);
-    let mut latest = leaves(problem.all.inputs(), problem.holes(), most)?;
+    let mut latest = leaves(problem.shape(), most)?;
     latest.retain(|draft| known.insert(hash(draft)));
     while !latest.is_empty() {
         let mut next = Vec::new();
@@ -168,25 +167,32 @@ fn hash(draft: &Draft) -> u64 {
 
 /// Returns every choice of an input or a constant for each output; none if there are more than
 /// `most`.
-fn leaves(inputs: usize, outputs: usize, most: usize) -> Option<Vec<Draft>> {
-    let count = (inputs + 1).checked_pow(outputs as u32);
-    if count.is_none_or(|count| count > most) {
+fn leaves(shape: &Shape, most: usize) -> Option<Vec<Draft>> {
+    let inputs = shape.inputs;
+    let choices = |output: usize| {
+        let inputs = (0..inputs).filter(move |&input| shape.may_read(output, input));
+        inputs.map(Some).chain([None])
+    };
+    let counts = (0..shape.outputs()).map(|output| choices(output).count());
+    let count = counts.fold(1usize, usize::saturating_mul);
+    if count > most {
         return None;
     }
     let mut drafts = vec![Draft { inputs, ..Draft::default() }];
-    for _ in 0..outputs {
+    for output in 0..shape.outputs() {
         let with = |draft: &Draft, input: Option<usize>| {
             let mut draft = draft.clone();
-            let output = match input {
-                Some(input) => Arg::Input(input as u16),
-                None => draft.constant(0.5 + draft.consts.len() as f32),
+            let value = match (input, shape.reads()[output]) {
+                (Some(input), _) => Arg::Input(input as u16),
+                (None, Reads::Constant(Some(start))) => draft.constant(start),
+                (None, _) => draft.constant(0.5 + draft.consts.len() as f32),
             };
-            draft.outputs.push(output);
+            draft.outputs.push(value);
             draft
         };
         drafts = drafts
             .iter()
-            .flat_map(|draft| (0..inputs).map(Some).chain([None]).map(move |i| with(draft, i)))
+            .flat_map(|draft| choices(output).map(move |input| with(draft, input)))
             .collect();
     }
     Some(drafts)
@@ -195,14 +201,14 @@ fn leaves(inputs: usize, outputs: usize, most: usize) -> Option<Vec<Draft>> {
 /// Returns the drafts that one more instruction makes of a draft, with their hashes, each structure
 /// once.
 fn grown(draft: &Draft, problem: &Problem, cost: f64) -> Vec<(u64, Draft)> {
-    let (mut simplifier, mut scratch) = (Simplifier::default(), CostScratch::default());
+    let (mut simplifier, mut scratch) = (Simplifier::default(), FormulaScratch::default());
     let mut simple = Draft::default();
     let mut known = HashSet::new();
     let mut grown = Vec::new();
     insertions(draft, &problem.grammar, &mut |child| {
         simplifier.simplify(child, &mut simple);
         // An infinite constant is free to a compiler, so formulas with one would never end.
-        if reads_only_constants(&simple) {
+        if reads_only_constants(&simple) || problem.shape().violation(&simple).is_some() {
             return;
         }
         let affordable = problem.cost_of_child(&simple, &mut scratch) <= cost;
@@ -218,10 +224,13 @@ fn grown(draft: &Draft, problem: &Problem, cost: f64) -> Vec<(u64, Draft)> {
 /// Fits a structure on the subset from several starts and returns the best; none if the structure
 /// is not as required or never finite.
 fn fitted(fitter: &mut Fitter, draft: &Draft, problem: &Problem, race: &Samples) -> Option<Member> {
-    if !problem.structure_ok(&problem.formula(draft)) {
+    if !problem.child_structure_ok(draft) {
         return None;
     }
-    let cost = problem.cost_of_child(draft, &mut CostScratch::default());
+    let cost = problem.cost_of_child(draft, &mut FormulaScratch::default());
+    if cost > problem.goal.max_cost {
+        return None;
+    }
     let mut rng = ChaCha8Rng::seed_from_u64(hash(draft));
     let mut best: Option<Member> = None;
     for start in 0..STARTS {
@@ -282,7 +291,7 @@ mod tests {
         }
         let all = structures(&problem, 1.0, 1000, &Deadline::NEVER).unwrap();
         for draft in &all {
-            let cost = problem.cost(draft, &mut CostScratch::default());
+            let cost = problem.cost_of_child(draft, &mut FormulaScratch::default());
             assert!(cost <= 1.0, "{}", print(&Program::verify(draft.clone()).unwrap(), &names));
         }
         assert_eq!(structures(&problem, 1.0, all.len() - 1, &Deadline::NEVER), None);

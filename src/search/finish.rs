@@ -113,21 +113,21 @@ impl Front {
     }
 }
 
-/// Returns the archive's drafts, the most valuable first; the best constant if it is empty, so that
+/// Returns the archive's children, the most valuable first; the best constant if it is empty, so that
 /// there always is a front.
 fn archived(search: &Search) -> Vec<Draft> {
     let members = search.archive().members();
     if members.is_empty() {
         let problem = search.problem();
-        let mut constant = Draft { inputs: problem.all.inputs(), ..Draft::default() };
-        for hole in 0..problem.holes() {
+        let mut constant = Draft { inputs: problem.shape().inputs, ..Draft::default() };
+        for hole in 0..problem.shape().outputs() {
             let value = constant.constant(0.5 + hole as f32);
             constant.outputs.push(value);
         }
         problem.on_formula(&mut constant, |formula, own| {
             Fitter::default().fit_free(formula, &problem.all, CONSTANT, |i| i < own)
         });
-        return vec![problem.formula(&constant).into_owned()];
+        return vec![constant];
     }
     let place = |member: &Member| (member.cost, member.loss);
     let order = by_value(&members.iter().map(place).collect::<Vec<_>>());
@@ -154,19 +154,19 @@ fn by_value(front: &[(f64, f64)]) -> Vec<usize> {
     order
 }
 
-/// Returns the drafts that may be on the front for the maximum error, and whether the deadline left
+/// Returns the children that may be on the front for the maximum error, and whether the deadline left
 /// some out.
 fn contending(search: &Search, measure: Measure, work: &Work) -> (Vec<Draft>, bool) {
     let mut drafts = archived(search);
     drafts.extend(search.contenders());
     let (mut simplifier, mut simple) = (Simplifier::default(), Draft::default());
+    let problem = search.problem();
     let plain = drafts.iter().filter_map(|draft| {
         // Algebra multiplies out what then has a common factor.
         simplifier.simplify(draft, &mut simple);
         without_common_factors(&simple)
     });
     drafts.extend(plain.collect::<Vec<_>>());
-    let problem = search.problem();
     let samples = problem.all_in(measure);
     // Half of the time is left for polishing those that are worth it.
     let half = work.deadline.left().map(|left| left / 2);

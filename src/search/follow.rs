@@ -57,7 +57,7 @@ impl Search {
         let samples = Samples::new(rows, problem.dataset.inputs.len());
         let members = self.archive().members().par_iter();
         let of = |member: &Member| {
-            let program = Program::verify(problem.natural(&member.draft).into_owned()).ok()?;
+            let program = Program::verify(problem.formula_of(&member.draft)).ok()?;
             let values = Evaluator::default().outputs(&Tape::new(&program), &samples);
             Some(squares(&problem.dataset, problem.goal.measure, rows, &values))
         };

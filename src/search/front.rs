@@ -29,6 +29,8 @@ pub struct FrontMember {
     pub verdict: VerdictRecord,
     /// Its text.
     pub formula: String,
+    /// What fills the holes of the template, if it was found by one.
+    pub holes: Vec<String>,
 }
 
 impl FrontMember {
@@ -50,7 +52,8 @@ impl FrontMember {
         let Cost { cycles, registers, .. } = profile.cost(&program);
         let verdict = VerdictRecord::default();
         let (registers, domain) = (Some(registers), Vec::new());
-        FrontMember { program, cost: cycles, registers, score, domain, verdict, formula }
+        let holes = Vec::new();
+        FrontMember { program, cost: cycles, registers, score, domain, verdict, formula, holes }
     }
 
     /// Judges the formula, unless it is judged already.

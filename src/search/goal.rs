@@ -3,7 +3,7 @@
 use super::Requirement;
 use crate::fit::Measure;
 use crate::op::Op;
-use crate::program::{Arg, Draft, Outer, Program};
+use crate::program::{Arg, Draft, Names, Outer, Program, Shape, Template};
 use serde::{Deserialize, Serialize};
 use std::fmt;
 use std::str::FromStr;
@@ -22,6 +22,13 @@ pub struct Goal {
     /// The function of each output that is searched for: a spelling of an outer form
     /// ([`crate::program::Outer`]). An output without an entry is searched for itself.
     pub transforms: Vec<Option<Transform>>,
+    /// The text of a formula whose holes are searched for ([`Template`]), in place of formulas of
+    /// the outputs.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub template: Option<String>,
+    /// What is costed.
+    #[serde(skip_serializing_if = "CostOf::is_usual")]
+    pub cost_of: CostOf,
     /// The most cycles that a formula may cost, from 0 to [`MAX_CYCLES`].
     pub max_cost: f64,
 }
@@ -33,7 +40,46 @@ impl Default for Goal {
             measure: Measure::Rmse,
             requirements: Vec::new(),
             transforms: Vec::new(),
+            template: None,
+            cost_of: CostOf::Whole,
             max_cost: 40.0,
+        }
+    }
+}
+
+/// What a formula's cost is counted of.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+pub enum CostOf {
+    /// All of it.
+    #[default]
+    Whole,
+    /// What fills the holes of a template, once for each call.
+    Holes,
+}
+
+impl CostOf {
+    fn is_usual(&self) -> bool {
+        *self == CostOf::Whole
+    }
+}
+
+impl fmt::Display for CostOf {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(match self {
+            CostOf::Whole => "whole",
+            CostOf::Holes => "holes",
+        })
+    }
+}
+
+impl FromStr for CostOf {
+    type Err = String;
+
+    fn from_str(text: &str) -> Result<CostOf, String> {
+        match text {
+            "whole" => Ok(CostOf::Whole),
+            "holes" => Ok(CostOf::Holes),
+            other => Err(format!("`{other}`: the cost is of the whole, or of holes")),
         }
     }
 }
@@ -90,6 +136,39 @@ impl Transform {
 }
 
 impl Goal {
+    /// Returns the template over columns of these names, if there is one.
+    ///
+    /// # Errors
+    /// A template that cannot be read over them; a requirement of a hole that it lacks.
+    pub fn template(&self, names: &Names) -> Result<Option<Template>, String> {
+        let parsed = |text: &String| {
+            Template::parse(text, names).map_err(|error| format!("`template`: {error}"))
+        };
+        let template = self.template.as_ref().map(parsed).transpose()?;
+        let lacks = |name: &str| template.as_ref().is_none_or(|one| one.hole(name).is_none());
+        for requirement in &self.requirements {
+            if let Requirement::HoleRange { hole, .. } = requirement
+                && lacks(hole)
+            {
+                return Err(format!(
+                    "`requirements` name `{hole}`, which is no hole of a template"
+                ));
+            }
+        }
+        Ok(template)
+    }
+
+    /// Returns the shape of the drafts that are searched for, over columns of these names.
+    ///
+    /// # Errors
+    /// As [`Goal::template`].
+    pub fn shape(&self, names: &Names) -> Result<Shape, String> {
+        Ok(match self.template(names)? {
+            Some(template) => template.outer().shape().clone(),
+            None => Shape::open(names.inputs.len(), names.outputs.len()),
+        })
+    }
+
     /// Returns the outer form, the transforms' inverses; none if there are no transforms.
     pub(super) fn outer(&self, inputs: usize, outputs: usize) -> Option<Outer> {
         self.around_outputs(inputs, outputs, Transform::invert)
@@ -130,6 +209,12 @@ impl Goal {
         if self.transforms.len() > outputs {
             return Err("there are more `transforms` than outputs".into());
         }
+        if self.template.is_some() && self.transforms.iter().any(Option::is_some) {
+            return Err("`transforms` do not go with a `template`; write them in it".into());
+        }
+        if self.template.is_none() && self.cost_of == CostOf::Holes {
+            return Err("`cost_of` holes needs a `template`".into());
+        }
         let ends = self.requirements.iter().any(|one| matches!(one, Requirement::Ends { .. }));
         if ends && self.measure == Measure::Relative {
             let reason = "`requirements`: ends=… goes with rmse, max or weighted, not relative";
@@ -159,6 +244,10 @@ impl Requirement {
             Requirement::Half { error } if error.is_nan() || error <= 0.0 => {
                 Err(format!("`requirements`: half={error}; it must be above 0"))
             }
+            Requirement::HoleRange { ref hole, low, high } => match low < high {
+                true => Ok(()),
+                false => Err(format!("`requirements`: {hole}.range={low}..{high} is no range")),
+            },
             Requirement::Half { .. } | Requirement::Operation(_) | Requirement::Finite => Ok(()),
         }
     }

@@ -2,15 +2,15 @@
 
 use super::polish::reads_only_constants;
 use super::population::{Individual, Population};
+use super::problem::FormulaScratch;
 use super::vary::{Rates, Variation, random_draft};
 use super::{Counts, Goal, Method, Problem, Rejection};
 use crate::archive::{Archive, Member};
-use crate::cost::CostScratch;
 use crate::deadline::Deadline;
 use crate::eval::Samples;
 use crate::fit::{Fitter, Measure, Rounds, Stop, minimax_free};
 use crate::op::Op;
-use crate::program::{Constants, Draft, structural_hash};
+use crate::program::{Constants, Draft, Shape, structural_hash};
 use crate::simplify::Simplifier;
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
@@ -89,6 +89,8 @@ pub(super) struct Island {
     /// True if losses in its population are squares of the maximum error, not mean squares.
     pub by_maximum: bool,
     rates: Rates,
+    /// The cycles of the template, above which its budget is a share.
+    floor: f64,
     /// Hashes of structures, whose low bits count fits.
     seen: Vec<u32>,
     under_way: Option<UnderWay>,
@@ -115,25 +117,29 @@ struct Scratch {
     variation: Variation,
     simplifier: Simplifier,
     fitter: Fitter,
-    cost: CostScratch,
+    formula: FormulaScratch,
     hashes: Vec<u64>,
     child: Draft,
     candidate: Draft,
 }
 
 impl Island {
-    pub fn new(number: usize, goal: &Goal, method: &Method) -> Island {
+    /// Makes one without individuals; formulas cost more than `floor` cycles.
+    pub fn new(number: usize, goal: &Goal, floor: f64, method: &Method) -> Island {
         let Kind { share, by_family, by_maximum } = KINDS[number % KINDS.len()];
-        let max_cost = (goal.max_cost * share).ceil().min(goal.max_cost);
+        let floor = floor.min(goal.max_cost);
+        let all = goal.max_cost - floor;
+        let max_cost = (floor + all * share).ceil().min(goal.max_cost);
         // All islands have about as many individuals.
-        let crowd = method.bucket_size as f64 * (goal.max_cost + 1.0);
-        let size = crowd / (max_cost + 1.0) * if by_family { FAMILY_BUCKET } else { 1.0 };
+        let crowd = method.bucket_size as f64 * (all + 1.0);
+        let size = crowd / (max_cost - floor + 1.0) * if by_family { FAMILY_BUCKET } else { 1.0 };
         Island {
             population: Population::new(max_cost, by_family, size.round().max(1.0) as usize),
             archive: Archive::default(),
             counts: Counts::default(),
             by_maximum: by_maximum && goal.measure == Measure::Max,
             rates: Rates::default(),
+            floor,
             seen: vec![0; MEMORY],
             under_way: None,
             scratch: Scratch::default(),
@@ -141,17 +147,18 @@ impl Island {
         }
     }
 
-    /// Checks that it can have evolved from a new one, for so many inputs and outputs.
-    pub fn check(&self, new: &Island, inputs: usize, outputs: usize) -> Result<(), String> {
-        if (self.seen.len(), self.by_maximum) != (new.seen.len(), new.by_maximum) {
+    /// Checks that it can have evolved from a new one, by drafts of a shape.
+    pub fn check(&self, new: &Island, shape: &Shape) -> Result<(), String> {
+        let kind = |one: &Island| (one.seen.len(), one.by_maximum, one.floor);
+        if kind(self) != kind(new) {
             return Err("its memory or error measure does not match its settings".into());
         }
         self.rates.check()?;
         if let Some(under_way) = &self.under_way {
             under_way.rates.check()?;
         }
-        self.archive.check(inputs, outputs)?;
-        self.population.check(&new.population, inputs, outputs)
+        self.archive.check(shape)?;
+        self.population.check(&new.population, shape)
     }
 
     /// Continues a generation, on a random stream of its own, until it is done or the deadline is
@@ -205,7 +212,7 @@ impl Island {
     /// constants, so about with the square of the cost: islands with a smaller budget consider more
     /// candidates, and none waits long for the others.
     fn candidates(&self, max_cost: f64, with_all_of_it: usize) -> usize {
-        let share = self.population.max_cost / max_cost.max(1.0);
+        let share = (self.population.max_cost - self.floor) / (max_cost - self.floor).max(1.0);
         (with_all_of_it as f64 / share.clamp(MIN_SHARE, 1.0).powi(2)) as usize
     }
 
@@ -217,11 +224,10 @@ impl Island {
         match (self.population.pick(rng), self.population.pick(rng)) {
             (Some(parent), Some(donor)) if !immigrates => {
                 child.copy_from(&parent.draft);
-                variation.vary(rng, child, &donor.draft, &problem.grammar)
+                variation.vary(rng, child, &donor.draft, &problem.grammar, problem.shape())
             }
             _ => {
-                let (inputs, holes) = (problem.all.inputs(), problem.holes());
-                random_draft(rng, inputs, holes, &problem.grammar, child);
+                random_draft(rng, problem.shape(), &problem.grammar, child);
                 0
             }
         }
@@ -250,14 +256,13 @@ impl Island {
         if !remember(&mut self.seen, hash) {
             return Err(Rejection::Seen);
         }
-        if !problem.structure_ok(&problem.formula(&scratch.candidate)) {
+        if !problem.child_structure_ok(&scratch.candidate) {
             return Err(Rejection::Inadmissible);
         }
         self.counts.fitted += 1;
         let admission = self.population.admission(&scratch.candidate, cost);
         let loss = scratch.race(problem, &self.race, admission, self.by_maximum)?;
-        let formula = problem.formula(&scratch.candidate);
-        if problem.holds_on_samples(&formula, &mut scratch.fitter.evaluator) {
+        if problem.child_holds(&scratch.candidate, &mut scratch.fitter.evaluator) {
             return Ok(Individual { draft: scratch.candidate.clone(), cost, loss, hash });
         }
         self.clamped(problem).ok_or(Rejection::Unfulfilled)
@@ -266,14 +271,14 @@ impl Island {
     /// Returns the candidate with clamped outputs, which may be the cheapest way to meet the
     /// requirements; none within an outer form, around which no child can clamp.
     fn clamped(&mut self, problem: &Problem) -> Option<Individual> {
-        let Scratch { fitter, cost: cost_scratch, candidate, .. } = &mut self.scratch;
+        let Scratch { fitter, formula, candidate, .. } = &mut self.scratch;
         *candidate = problem.clamped(candidate).filter(|_| problem.outer.is_none())?;
         if !problem.structure_ok(candidate)
             || candidate.instrs.len() > problem.grammar.max_instructions
         {
             return None;
         }
-        let cost = problem.cost(candidate, cost_scratch);
+        let cost = problem.cost(candidate, &mut formula.cost);
         let admission = self.population.admission(candidate, cost);
         let mut loss =
             fitter.fit(candidate, &self.race, MORE_STEPS) * (1.0 / self.race.total_weight());
@@ -293,12 +298,12 @@ impl Island {
         let Scratch { fitter, candidate, .. } = &mut self.scratch;
         let wanted = self.archive.best_loss(cost) * SUBSET_TOLERANCE;
         let by_maximum = problem.goal.measure == Measure::Max;
-        problem.on_formula(candidate, |formula, own| {
+        let fitted = problem.on_formula(candidate, |formula, own| {
             if by_maximum && !self.by_maximum {
                 loss = minimax_loss(fitter, formula, own, &self.race, wanted);
             }
             if loss >= wanted {
-                return;
+                return None;
             }
             self.counts.fitted_on_all += 1;
             let sum = fitter.fit_free(formula, &problem.all, ALL_SAMPLES, |i| i < own);
@@ -306,11 +311,12 @@ impl Island {
             if by_maximum {
                 loss = minimax_loss(fitter, formula, own, &problem.all, wanted);
             }
-            let loss = problem.archive_loss(formula, loss, &mut fitter.evaluator);
-            if problem.holds_on_samples(formula, &mut fitter.evaluator) {
-                self.archive.offer(Member { cost, loss, draft: formula.clone() });
-            }
+            Some(problem.archive_loss(formula, loss, &mut fitter.evaluator))
         });
+        let Some(loss) = fitted else { return };
+        if problem.child_holds(candidate, &mut fitter.evaluator) {
+            self.archive.offer(Member { cost, loss, draft: candidate.clone() });
+        }
     }
 
     /// Fits its individuals to the samples on which candidates race now, and forgets which
@@ -362,7 +368,7 @@ impl Island {
 impl Scratch {
     /// Makes the child a candidate, effective code in the grammar's operations. Returns its cost.
     fn prepare(&mut self, problem: &Problem, max_cost: f64) -> Result<f64, Rejection> {
-        let Scratch { simplifier, cost: cost_scratch, child, candidate, .. } = self;
+        let Scratch { simplifier, formula, child, candidate, .. } = self;
         simplifier.simplify(child, candidate);
         if !is_written_in(candidate, problem) {
             simplifier.fold_constants(child, candidate);
@@ -372,7 +378,7 @@ impl Scratch {
         if candidate.instrs.len() > problem.grammar.max_instructions || !constants_are_finite {
             return Err(Rejection::TooLong);
         }
-        let cost = problem.cost_of_child(candidate, cost_scratch);
+        let cost = problem.cost_of_child(candidate, formula);
         if cost > max_cost { Err(Rejection::TooExpensive) } else { Ok(cost) }
     }
 
@@ -428,19 +434,19 @@ impl Scratch {
     }
 }
 
-/// Fits a formula of the archive to all samples, and returns it with its loss; none if its values
-/// are not as required.
+/// Fits a child of the archive to all samples, and returns it with its loss; none if its values are
+/// not as required.
 pub(super) fn refitted(member: &Member, problem: &Problem, fitter: &mut Fitter) -> Option<Member> {
     let mut draft = member.draft.clone();
-    // The constants of an outer form, which are its last, stay.
-    let own = problem.own_constants(&draft);
-    let mut loss =
-        fitter.fit_free(&mut draft, &problem.all, ALL_SAMPLES, |i| i < own) * problem.scale();
-    if problem.goal.measure == Measure::Max {
-        loss = minimax_loss(fitter, &mut draft, own, &problem.all, f64::INFINITY);
-    }
-    let loss = problem.archive_loss(&draft, loss, &mut fitter.evaluator);
-    let holds = problem.holds_on_samples(&draft, &mut fitter.evaluator);
+    let loss = problem.on_formula(&mut draft, |formula, own| {
+        let sum = fitter.fit_free(formula, &problem.all, ALL_SAMPLES, |i| i < own);
+        let mut loss = sum * problem.scale();
+        if problem.goal.measure == Measure::Max {
+            loss = minimax_loss(fitter, formula, own, &problem.all, f64::INFINITY);
+        }
+        problem.archive_loss(formula, loss, &mut fitter.evaluator)
+    });
+    let holds = problem.child_holds(&draft, &mut fitter.evaluator);
     holds.then_some(Member { cost: member.cost, loss, draft })
 }
 

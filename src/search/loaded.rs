@@ -2,10 +2,10 @@
 //! so that all other code can rely on them.
 
 use super::island::Island;
-use super::{FrontMember, Goal, Method, State};
+use super::{FrontMember, Goal, MAX_CYCLES, Method, State};
 use crate::archive::Archive;
 use crate::grammar::MAX_INSTRUCTIONS;
-use crate::program::Draft;
+use crate::program::{Draft, Shape};
 use crate::truth::DomainError;
 
 /// The most instructions of a finished formula: a search's has at most [`MAX_INSTRUCTIONS`], and
@@ -31,27 +31,26 @@ impl FrontMember {
 }
 
 impl State {
-    /// Checks that a search for this goal by this method, for so many inputs and outputs, can have
-    /// reached this state: every program is verified, every index exists, every number is finite.
+    /// Checks that a search for this goal by this method, of drafts of this shape, can have reached
+    /// this state: every program is verified, every index exists, every number is finite.
     ///
     /// # Errors
     /// The first violation.
-    pub fn check(
-        &self,
-        goal: &Goal,
-        method: &Method,
-        inputs: usize,
-        outputs: usize,
-    ) -> Result<(), String> {
-        goal.check(inputs, outputs)?;
+    pub fn check(&self, goal: &Goal, method: &Method, shape: &Shape) -> Result<(), String> {
         method.check()?;
+        if !(0.0..=MAX_CYCLES * MAX_CYCLES).contains(&self.floor) {
+            return Err(format!("its template costs {} cycles", self.floor));
+        }
+        if goal.template.is_none() && self.floor != 0.0 {
+            return Err("it has a template, but its goal has none".into());
+        }
         if self.islands.len() != method.islands {
             return Err("its number of islands does not match its settings".into());
         }
-        self.archive.check(inputs, outputs)?;
+        self.archive.check(shape)?;
         for (number, island) in self.islands.iter().enumerate() {
             island
-                .check(&Island::new(number, goal, method), inputs, outputs)
+                .check(&Island::new(number, goal, self.floor, method), shape)
                 .map_err(|reason| format!("island {number}: {reason}"))?;
         }
         Ok(())
@@ -59,11 +58,11 @@ impl State {
 }
 
 impl Archive {
-    pub(super) fn check(&self, inputs: usize, outputs: usize) -> Result<(), String> {
+    pub(super) fn check(&self, shape: &Shape) -> Result<(), String> {
         for member in self.members() {
             not_negative("cost", member.cost)?;
             not_negative("loss", member.loss)?;
-            check_draft(&member.draft, inputs, outputs)?;
+            check_draft(&member.draft, shape)?;
         }
         match self.members().is_sorted_by(|a, b| a.cost <= b.cost) {
             true => Ok(()),
@@ -72,8 +71,9 @@ impl Archive {
     }
 }
 
-/// Checks that a draft is a short program of so many inputs and outputs.
-pub(super) fn check_draft(draft: &Draft, inputs: usize, outputs: usize) -> Result<(), String> {
+/// Checks that a draft is a short program of a shape.
+pub(super) fn check_draft(draft: &Draft, shape: &Shape) -> Result<(), String> {
+    let (inputs, outputs) = (shape.inputs, shape.outputs());
     draft.check().map_err(|invalid| invalid.to_string())?;
     if (draft.inputs, draft.outputs.len()) != (inputs, outputs) {
         return Err(format!(
@@ -81,6 +81,9 @@ pub(super) fn check_draft(draft: &Draft, inputs: usize, outputs: usize) -> Resul
             draft.inputs,
             draft.outputs.len()
         ));
+    }
+    if let Some(output) = shape.violation(draft) {
+        return Err(format!("hole {output} reads what it must not"));
     }
     short(draft)
 }

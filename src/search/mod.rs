@@ -38,13 +38,14 @@ mod problem;
 mod require;
 mod rounding;
 mod scales;
+mod template;
 mod vary;
 
 pub use domain::integrate;
 pub use enumerate::Enumeration;
 pub use finish::{Rehearsal, Work};
 pub use front::{Front, FrontMember, ScoredIncumbent};
-pub use goal::{Goal, MAX_CYCLES, Transform};
+pub use goal::{CostOf, Goal, MAX_CYCLES, Transform};
 pub(crate) use loaded::not_negative;
 pub use method::{MAX_ISLANDS, Method};
 pub use problem::{Problem, ProblemBuilder, SetupError, USUAL_GPU, USUAL_GRAMMAR};
@@ -180,6 +181,8 @@ pub struct State {
     islands: Vec<Island>,
     archive: Archive,
     enumeration: Option<Enumeration>,
+    /// The cycles of the template around what is searched: islands share what is above them.
+    floor: f64,
 }
 
 impl State {
@@ -209,9 +212,11 @@ impl Search {
     pub fn new(problem: impl Into<Arc<Problem>>, method: Method) -> Result<Search, SetupError> {
         method.check().map_err(SetupError::Method)?;
         let problem = problem.into();
-        let islands = (0..method.islands).map(|i| Island::new(i, &problem.goal, &method)).collect();
+        let floor = problem.floor();
+        let island = |number| Island::new(number, &problem.goal, floor, &method);
+        let islands = (0..method.islands).map(island).collect();
         let archive = Archive::default();
-        let state = State { generation: 0, islands, archive, enumeration: None };
+        let state = State { generation: 0, islands, archive, enumeration: None, floor };
         Ok(Search::with(problem, method, state))
     }
 
@@ -227,8 +232,11 @@ impl Search {
     ) -> Result<Search, SetupError> {
         let problem = problem.into();
         method.check().map_err(SetupError::Method)?;
-        let (inputs, outputs) = (problem.all.inputs(), problem.all.outputs());
-        state.check(&problem.goal, &method, inputs, outputs).map_err(SetupError::State)?;
+        state.check(&problem.goal, &method, problem.shape()).map_err(SetupError::State)?;
+        if state.floor != problem.floor() {
+            let reason = "its template has another cost".to_owned();
+            return Err(SetupError::State(reason));
+        }
         Ok(Search::with(problem, method, state))
     }
 
@@ -258,7 +266,7 @@ impl Search {
         self.state.generation
     }
 
-    /// Returns the best drafts so far, judged on the whole search split. [`Problem::natural`] turns
+    /// Returns the best drafts so far, judged on the whole search split. [`Problem::formula_of`] turns
     /// them into formulas over the dataset's columns, [`Problem::error`] their losses into errors.
     pub fn archive(&self) -> &Archive {
         &self.state.archive
@@ -275,12 +283,14 @@ impl Search {
         self.archive().hypervolume(self.problem.goal.max_cost, self.problem.constant_loss)
     }
 
-    /// Returns the formulas of the islands' individuals whose structures the archive lacks and that
-    /// are not much worse than its members.
+    /// Returns the islands' individuals whose structures the archive lacks and that are not much
+    /// worse than its members.
     fn contenders(&self) -> Vec<Draft> {
         let archive = self.archive();
         let mut hashes = Vec::new();
-        let mut structure = |draft| structural_hash(draft, Constants::Ignored, &mut hashes);
+        let mut structure = |child: &Draft| {
+            structural_hash(&self.problem.formula(child), Constants::Ignored, &mut hashes)
+        };
         let mut known: HashSet<u64> =
             archive.members().iter().map(|member| structure(&member.draft)).collect();
         let mut contenders = Vec::new();
@@ -292,7 +302,7 @@ impl Search {
             };
             for one in island.population.individuals() {
                 if one.loss < share * archive.best_loss(one.cost) && known.insert(one.hash) {
-                    contenders.push(self.problem.formula(&one.draft).into_owned());
+                    contenders.push(one.draft.clone());
                 }
             }
         }

@@ -2,15 +2,16 @@
 
 use super::Problem;
 use super::front::FrontMember;
+use super::problem::FormulaScratch;
 use super::rounding::Rounding;
+use super::template::{polish_holes, shown};
 use crate::archive::near_the_least;
-use crate::cost::CostScratch;
 use crate::dataset::Column;
 use crate::deadline::Deadline;
 use crate::eval::{Arithmetic, Bounds, Samples};
 use crate::fit::{
-    Fitter, Measure, Rounds, Stop, drop_negligible, drop_negligible_minimax, minimax, shorten,
-    shorten_minimax,
+    Fitter, Measure, Rounds, Stop, drop_negligible, drop_negligible_minimax, minimax, minimax_free,
+    shorten, shorten_minimax,
 };
 use crate::num::{Interval, enclose};
 use crate::op::{MAX_ARITY, Op};
@@ -20,7 +21,7 @@ use rayon::prelude::*;
 use std::cmp::Ordering;
 
 /// The end of a front member's fit: next to no gain. Chosen by hand, unmeasured.
-const TO_CONVERGENCE: Stop = Stop { max_steps: 200, min_gain: 1e-7 };
+pub(super) const TO_CONVERGENCE: Stop = Stop { max_steps: 200, min_gain: 1e-7 };
 
 /// The share by which constants of fewer digits may raise the sum of squares, which is half of it
 /// in RMSE. By hand: no plot shows two thousandths.
@@ -29,10 +30,32 @@ const SHORTENING_ALLOWANCE: f64 = 0.004;
 /// The share by which they may raise the maximum error. Chosen by hand, unmeasured.
 const MINIMAX_ALLOWANCE: f64 = 0.01;
 
-/// Fits to convergence, drops constants that do nothing, shortens the others, and drops what the
-/// constants or the domain have made superfluous. None if no form of the formula is finite on every
-/// sample and as required.
+/// Returns the share by which shorter constants may raise the loss.
+pub(super) fn allowance(measure: Measure) -> f64 {
+    if measure == Measure::Max { MINIMAX_ALLOWANCE } else { SHORTENING_ALLOWANCE }
+}
+
+/// Finishes the formula that a child becomes: fits to convergence, drops constants that do nothing,
+/// shortens the others, and drops what the constants or the domain have made superfluous. None if
+/// no form of the formula is finite on every sample and as required.
 pub(super) fn polish(
+    child: &Draft,
+    problem: &Problem,
+    samples: &Samples,
+    names: &Names,
+    measure: Measure,
+    deadline: &Deadline,
+) -> Option<FrontMember> {
+    match &problem.template {
+        Some(template) => polish_holes(child, template, problem, samples, measure, deadline),
+        None => {
+            let draft = problem.formula(child);
+            polish_formula(&draft, problem, samples, names, measure, deadline)
+        }
+    }
+}
+
+fn polish_formula(
     draft: &Draft,
     problem: &Problem,
     samples: &Samples,
@@ -83,7 +106,9 @@ pub(super) fn with_short_laws(
     measure: Measure,
 ) -> Vec<FrontMember> {
     let rounding = Rounding::of(problem);
-    if !members.iter().any(|member| rounding.covers(&member.score, measure)) {
+    // A template's constants are its author's, and those of its holes are short already.
+    let is_written = problem.template.is_some();
+    if is_written || !members.iter().any(|member| rounding.covers(&member.score, measure)) {
         return members;
     }
     let (samples, names) = (problem.all_as_given(measure), problem.dataset.names());
@@ -111,11 +136,14 @@ pub(super) fn with_short_laws(
     each.collect()
 }
 
-/// Returns the formula as the search left it, simplified; none if it is not finite on every sample
-/// or not as required.
-pub(super) fn as_found(draft: &Draft, problem: &Problem, names: &Names) -> Option<FrontMember> {
+/// Returns the formula that a child becomes as the search left it, simplified; none if it is not
+/// finite on every sample or not as required.
+pub(super) fn as_found(child: &Draft, problem: &Problem, names: &Names) -> Option<FrontMember> {
+    if let Some(template) = &problem.template {
+        return shown(child, template, problem);
+    }
     let mut simple = Draft::default();
-    Simplifier::default().simplify(&problem.natural(draft), &mut simple);
+    Simplifier::default().simplify(&problem.formula_of(child), &mut simple);
     let program = effective(&Program::verify(simple).ok()?);
     let member = FrontMember::new(program, &problem.dataset, &problem.profile, names);
     (member.score.is_finite() && problem.may_show(&member.program)).then_some(member)
@@ -148,14 +176,22 @@ fn finished(
         let member = FrontMember::new(program, &problem.dataset, &problem.profile, names);
         (!reads_only_constants(&member.program)).then_some(member)
     });
-    let rounding = Rounding::of(problem);
-    let error = |member: &FrontMember| rounding.at_least(&member.score).joint_search().of(measure);
     let shown =
         finished.filter(|member| member.score.is_finite() && problem.may_show(&member.program));
-    shown.reduce(|plain, other| {
-        let as_good = other.cost <= plain.cost && error(&other) <= error(&plain) * WORSE;
-        if as_good { other } else { plain }
-    })
+    shown.reduce(|plain, other| better(plain, other, problem, measure))
+}
+
+/// Returns the other form of a formula if it is no dearer and as good, else the plain one.
+pub(super) fn better(
+    plain: FrontMember,
+    other: FrontMember,
+    problem: &Problem,
+    measure: Measure,
+) -> FrontMember {
+    let rounding = Rounding::of(problem);
+    let error = |member: &FrontMember| rounding.at_least(&member.score).joint_search().of(measure);
+    let as_good = other.cost <= plain.cost && error(&other) <= error(&plain) * WORSE;
+    if as_good { other } else { plain }
 }
 
 /// Returns true if an operation reads constants alone. If simplification has not folded it, its
@@ -168,7 +204,7 @@ pub(super) fn reads_only_constants(draft: &Draft) -> bool {
 /// Guards roots, logarithms and powers by the absolute value of their argument, which avoids NaN
 /// between samples and is free on most GPUs. None if there is nothing to guard or the grammar lacks
 /// `abs`.
-fn guarded(draft: &Draft, problem: &Problem) -> Option<Draft> {
+pub(super) fn guarded(draft: &Draft, problem: &Problem) -> Option<Draft> {
     if !problem.grammar.operations.iter().any(|(op, _)| *op == Op::Abs) {
         return None;
     }
@@ -181,7 +217,7 @@ fn guarded(draft: &Draft, problem: &Problem) -> Option<Draft> {
     (guarded.instrs.len() > draft.instrs.len()).then_some(guarded)
 }
 
-/// Returns the drafts that come near the least maximum error at their cost, first by a quick look,
+/// Returns the children that come near the least maximum error at their cost, first by a quick look,
 /// then by a closer one; and whether the deadline left some out.
 pub(super) fn shortlist(
     drafts: Vec<Draft>,
@@ -216,13 +252,15 @@ fn screened(
     let tried: Vec<(f64, f64, Draft)> = drafts
         .into_par_iter()
         .map_init(
-            || (Fitter::until(deadline), CostScratch::default()),
-            |(fitter, scratch), mut draft| {
+            || (Fitter::until(deadline), FormulaScratch::default()),
+            |(fitter, scratch), mut child| {
                 if deadline.is_past() {
                     return None;
                 }
-                let error = minimax(fitter, &mut draft, samples, look);
-                Some((problem.cost(&draft, scratch), error, draft))
+                let error = problem.on_formula(&mut child, |formula, own| {
+                    minimax_free(fitter, formula, samples, look, |i| i < own)
+                });
+                Some((problem.cost_of_child(&child, scratch), error, child))
             },
         )
         .flatten()
@@ -237,7 +275,7 @@ const WORSE: f64 = 1.0005;
 
 /// Drops each `abs`, `saturate`, `min` and `max` that, by interval arithmetic, never acts in the
 /// inputs' domain.
-fn without_idle(program: &Program, inputs: &[Column]) -> Program {
+pub(super) fn without_idle(program: &Program, inputs: &[Column]) -> Program {
     let domain = |column: &Column| enclose(column.domain[0], column.domain[1]);
     let inputs: Vec<Interval> = inputs.iter().map(domain).collect();
     let mut results: Vec<Interval> = Vec::new();

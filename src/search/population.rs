@@ -2,7 +2,7 @@
 
 use super::loaded::{check_draft, not_negative};
 use crate::op::Family;
-use crate::program::Draft;
+use crate::program::{Draft, Shape};
 use rand::RngExt;
 use rand_chacha::ChaCha8Rng;
 use serde::{Deserialize, Serialize};
@@ -60,8 +60,8 @@ impl Population {
         Population { max_cost, by_family, buckets, bucket_size }
     }
 
-    /// Checks that it can have evolved from a new one, for so many inputs and outputs.
-    pub fn check(&self, new: &Population, inputs: usize, outputs: usize) -> Result<(), String> {
+    /// Checks that it can have evolved from a new one, by drafts of a shape.
+    pub fn check(&self, new: &Population, shape: &Shape) -> Result<(), String> {
         let kind = |one: &Population| (one.max_cost, one.by_family, one.bucket_size);
         let full = self.buckets.iter().any(|bucket| bucket.len() > self.bucket_size);
         if kind(self) != kind(new) || self.buckets.len() != new.buckets.len() || full {
@@ -70,7 +70,7 @@ impl Population {
         for individual in self.individuals() {
             not_negative("cost", individual.cost)?;
             not_negative("loss", individual.loss)?;
-            check_draft(&individual.draft, inputs, outputs)?;
+            check_draft(&individual.draft, shape)?;
         }
         Ok(())
     }

@@ -1,14 +1,14 @@
 //! The problem: a goal for a dataset, a grammar and a GPU, laid out for a search.
 
-use super::Goal;
 use super::require::Checks;
 use super::scales::Scales;
+use super::{CostOf, Goal};
 use crate::cost::{CostScratch, Profile};
 use crate::dataset::{self, Dataset, Split, joint_unit, output_units};
 use crate::eval::{Evaluator, Samples, Tape};
 use crate::fit::Measure;
 use crate::grammar::{FileError, Grammar};
-use crate::program::{Draft, Outer, Program};
+use crate::program::{Draft, Outer, Program, Shape, Template};
 use crate::simplify::{Placement, Simplifier};
 use std::borrow::Cow;
 use std::sync::Arc;
@@ -41,8 +41,16 @@ pub struct Problem {
     pub(super) profile: Arc<Profile>,
     pub(super) goal: Goal,
     pub(super) checks: Checks,
-    /// The outer form around formulas, if the goal has transforms.
+    /// The outer form around formulas, if the goal has transforms or a template.
     pub(super) outer: Option<Outer>,
+    /// The goal's template.
+    pub(super) template: Option<Template>,
+    /// The template's calls, if only they are costed.
+    pub(super) calls_alone: Option<Outer>,
+    /// The shape of the drafts that are searched.
+    shape: Shape,
+    /// The cycles of the template around holes that do nothing; 0 without a template.
+    floor: f64,
     pub(super) all: Samples,
     /// All samples without those that only hold formulas to an end; none if there are no such.
     without_ends: Option<Samples>,
@@ -137,13 +145,25 @@ impl ProblemBuilder {
                 "`measure` is weighted, but the data has no weights".into(),
             ));
         }
-        let scales = Some(Scales::of(&dataset)).filter(|scales| !scales.are_natural());
+        let names = dataset.names();
+        let template = goal.template(&names).map_err(SetupError::Goal)?;
+        // A template is written over the columns as they are.
+        let scales =
+            Some(Scales::of(&dataset)).filter(|scales| template.is_none() && !scales.are_natural());
         let checks = Checks::new(&goal.requirements, &dataset);
+        let outer = template.as_ref().map(|template| template.outer().clone());
         let units = output_units(&dataset.outputs);
         let problem = Problem {
             constant_loss: f64::INFINITY,
             without_ends: None,
-            outer: goal.outer(inputs, outputs),
+            shape: goal.shape(&names).map_err(SetupError::Goal)?,
+            calls_alone: outer
+                .as_ref()
+                .filter(|_| goal.cost_of == CostOf::Holes)
+                .map(Outer::calls_alone),
+            outer: outer.or_else(|| goal.outer(inputs, outputs)),
+            floor: 0.0,
+            template,
             unit: if goal.measure == Measure::Relative { 1.0 } else { joint_unit(&units) },
             searched: Arc::clone(&dataset),
             dataset,
@@ -155,7 +175,8 @@ impl ProblemBuilder {
             checks,
             all: Samples::default(),
         };
-        Ok(problem.laid_out())
+        let floor = problem.cost_of_idle_holes();
+        Ok(Problem { floor, ..problem }.laid_out())
     }
 }
 
@@ -314,9 +335,25 @@ impl Problem {
         }
     }
 
-    /// Returns the number of outputs of a child.
-    pub(super) fn holes(&self) -> usize {
-        self.outer.as_ref().map_or(self.all.outputs(), Outer::holes)
+    /// Returns the shape of a child.
+    pub(super) fn shape(&self) -> &Shape {
+        &self.shape
+    }
+
+    /// Returns the cycles of the template around holes that do nothing; 0 without a template.
+    pub(super) fn floor(&self) -> f64 {
+        self.floor
+    }
+
+    /// Returns the template whose holes are searched for, if there is one.
+    pub fn template(&self) -> Option<&Template> {
+        self.template.as_ref()
+    }
+
+    /// Returns the formula over the dataset's own columns that a child, as the archive has it,
+    /// becomes.
+    pub fn formula_of(&self, child: &Draft) -> Draft {
+        self.natural(&self.formula(child)).into_owned()
     }
 
     /// Returns the draft that a child becomes within the outer form.
@@ -339,23 +376,31 @@ impl Problem {
         result
     }
 
-    /// Returns the number of a formula's constants that are not the outer form's.
-    pub(super) fn own_constants(&self, formula: &Draft) -> usize {
-        let outer = self.outer.as_ref().map_or(0, Outer::constants);
-        formula.consts.len().saturating_sub(outer)
-    }
-
     /// Returns the cycles plus penalties of the formula that a draft of the search becomes.
     pub(super) fn cost(&self, draft: &Draft, scratch: &mut CostScratch) -> f64 {
         self.natural_and_cost(draft, scratch).1
     }
 
-    /// Returns the cycles plus penalties of the formula that a child becomes.
-    pub(super) fn cost_of_child(&self, child: &Draft, scratch: &mut CostScratch) -> f64 {
-        let Some(outer) = &self.outer else { return self.cost(child, scratch) };
-        let mut formula = Draft::default();
-        Simplifier::default().simplify(&outer.append(child), &mut formula);
-        self.cost(&formula, scratch)
+    /// Returns the cycles plus penalties of the formula that a child becomes; those of a template's
+    /// own operations are not penalised.
+    pub(super) fn cost_of_child(&self, child: &Draft, scratch: &mut FormulaScratch) -> f64 {
+        let FormulaScratch { simplifier, formula, cost } = scratch;
+        let Some(outer) = self.calls_alone.as_ref().or(self.outer.as_ref()) else {
+            return self.cost(child, cost);
+        };
+        simplifier.simplify(&outer.append(child), formula);
+        match &self.template {
+            Some(_) => self.profile.cycles(formula, cost) + self.grammar.penalty(child),
+            None => self.cost(formula, cost),
+        }
+    }
+
+    /// Returns the cycles of the template around holes that are their first parameters.
+    fn cost_of_idle_holes(&self) -> f64 {
+        let Some(template) = &self.template else { return 0.0 };
+        let mut idle = template.guess("").expect("no text is a guess");
+        idle.consts.iter_mut().zip(0u8..).for_each(|(constant, i)| *constant = 0.6 + f32::from(i));
+        self.cost_of_child(&idle, &mut FormulaScratch::default())
     }
 
     /// Rewrites a draft of the search as one over the dataset's own columns.
@@ -389,9 +434,13 @@ impl Problem {
         self.scales.as_ref().map_or_else(|| draft.clone(), |scales| scales.searched(draft))
     }
 
-    /// Rewrites a draft over the dataset's own columns as a child.
+    /// Rewrites a draft over the dataset's own columns as a child; one of a template's shape is a
+    /// child already.
     pub(super) fn searched_child(&self, draft: &Draft) -> Draft {
         let searched = self.over_searched(draft);
+        if self.template.is_some() {
+            return searched;
+        }
         match self.goal.inner(searched.inputs, searched.outputs.len()) {
             Some(inner) => inner.append(&searched),
             None => searched,
@@ -402,6 +451,14 @@ impl Problem {
     pub(super) fn scale(&self) -> f64 {
         1.0 / self.all.total_weight()
     }
+}
+
+/// The memory in which children become formulas and are costed.
+#[derive(Clone, Debug, Default)]
+pub(super) struct FormulaScratch {
+    pub simplifier: Simplifier,
+    pub formula: Draft,
+    pub cost: CostScratch,
 }
 
 /// Returns the loss of the best constants, one for each output.

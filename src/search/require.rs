@@ -7,7 +7,7 @@ use crate::eval::{Evaluator, Samples, Tape, Values};
 use crate::fit::Measure;
 use crate::grammar::Grammar;
 use crate::op::Op;
-use crate::program::{Arg, Draft, Names, Program};
+use crate::program::{Arg, Draft, Hole, Names, Program};
 use crate::stability::{
     Bound, Limits, Property, Questions, Rounding, Status, half_error, points_in, prove,
 };
@@ -35,6 +35,8 @@ pub enum Requirement {
     Finite,
     /// In half precision no output has a larger absolute error.
     Half { error: f64 },
+    /// No value of a template's hole leaves the range, wherever it is called.
+    HoleRange { hole: String, low: f32, high: f32 },
 }
 
 /// The largest error of a value that must be exact, as a share of the output's largest magnitude.
@@ -60,6 +62,26 @@ impl Requirement {
     /// # Errors
     /// A message that says what is wrong with the text, and what may be written.
     pub fn parse(text: &str, names: &Names) -> Result<Requirement, String> {
+        Requirement::parse_of(text, names, &[])
+    }
+
+    /// As [`Requirement::parse`]; before the dot of a range may stand the name of one of these
+    /// holes, too.
+    ///
+    /// # Errors
+    /// As [`Requirement::parse`].
+    pub fn parse_of(text: &str, names: &Names, holes: &[Hole]) -> Result<Requirement, String> {
+        let named = text.split_once('.').map(|(name, _)| name.trim_start_matches('$'));
+        let hole = holes.iter().find(|hole| Some(hole.name.as_str()) == named);
+        if let Some(hole) = hole.filter(|hole| !names.outputs.contains(&hole.name)) {
+            let alone = text.split_once('.').map_or("", |(_, condition)| condition);
+            return match Requirement::parse(alone, names)? {
+                Requirement::Range { low, high, .. } => {
+                    Ok(Requirement::HoleRange { hole: hole.name.clone(), low, high })
+                }
+                _ => Err(format!("`{text}`: of a hole only a range can be required")),
+            };
+        }
         let wanted = "give finite, range=LOW..HIGH, half=ERROR, rising=INPUT, falling=INPUT, ends=INPUT or uses=NAME, an output's name and a dot before it if it is for one output";
         if text == "finite" {
             return Ok(Requirement::Finite);
@@ -122,6 +144,7 @@ impl Requirement {
             }
             Requirement::Operation(op) => format!("uses={}", op.name()),
             Requirement::Input(read) => format!("uses={}", input(read)),
+            Requirement::HoleRange { ref hole, low, high } => format!("{hole}.range={low}..{high}"),
             Requirement::Finite => "finite".to_owned(),
             Requirement::Half { error } => format!("half={error}"),
         }
@@ -342,6 +365,38 @@ impl Checks {
     }
 }
 
+/// Returns true if the values of programs, over the inputs of a dataset, are in their ranges on both
+/// splits.
+pub(super) fn ranges_hold(
+    ranges: &[(Program, [f32; 2])],
+    dataset: &Dataset,
+    evaluator: &mut Evaluator,
+) -> bool {
+    let inputs = dataset.inputs.len();
+    [&dataset.search, &dataset.validation].into_iter().all(|split| {
+        let samples = Samples::new(split, inputs);
+        ranges.iter().all(|(program, [low, high])| {
+            let values = evaluator.outputs(&Tape::new(program), &samples);
+            values.iter().flatten().all(|value| (low..=high).contains(&value))
+        })
+    })
+}
+
+/// Returns true if no value of a program that must be in a range is refuted in a dataset's domain.
+pub(super) fn range_is_not_refuted(
+    program: &Program,
+    [low, high]: [f32; 2],
+    dataset: &Dataset,
+) -> bool {
+    let domain = Questions::of(&dataset.inputs, &[], &[]).domain;
+    let bounds = [Bound::AtLeast(low.into()), Bound::AtMost(high.into())];
+    let each = 0..program.outputs.len();
+    let claims: Vec<_> = each.flat_map(|o| bounds.map(|bound| Property::of(o, bound))).collect();
+    let limits = Limits { boxes: BOXES, ..Limits::new(Rounding::Exact) };
+    let refuted = |status: &Status| matches!(status, Status::Refuted { .. });
+    !claims.chunks(64).any(|some| prove(program, &domain, some, &limits).iter().any(refuted))
+}
+
 /// The boxes searched before a formula counts as not refuted. By hand.
 const BOXES: usize = 2000;
 
@@ -420,12 +475,6 @@ impl Problem {
         self.checks.hold_on_samples(&self.natural(draft), evaluator)
     }
 
-    /// Returns true if a draft of the search is built as required and its values are so on the
-    /// samples.
-    pub(super) fn acceptable_on_samples(&self, draft: &Draft) -> bool {
-        self.structure_ok(draft) && self.holds_on_samples(draft, &mut Evaluator::default())
-    }
-
     /// As [`Checks::clamped`], for a draft of the search.
     pub(super) fn clamped(&self, draft: &Draft) -> Option<Draft> {
         let clamped = self.checks.clamped(&self.natural(draft), &self.grammar)?;
@@ -435,8 +484,12 @@ impl Problem {
     /// Returns true if a formula over the dataset's own columns may be shown: it is built as
     /// required, holds on the samples, and is not refuted in the domain.
     pub(super) fn may_show(&self, program: &Program) -> bool {
+        self.grammar.allows_nesting(program) && self.may_show_values(program)
+    }
+
+    /// As [`Problem::may_show`], however deep operations are nested.
+    pub(super) fn may_show_values(&self, program: &Program) -> bool {
         self.checks.structure_ok(program)
-            && self.grammar.allows_nesting(program)
             && self.checks.hold_on_samples(program, &mut Evaluator::default())
             && self.checks.not_refuted(program, &self.dataset)
     }

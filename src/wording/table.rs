@@ -22,6 +22,9 @@ pub fn front_table(front: &Front, incumbents: &[ScoredIncumbent], outputs: &[Str
         let numbers = numbers(member, front.measure, is_integrated);
         let _ = writeln!(text, "{:>4}  {numbers}{}", i + 1, statuses(member));
         let _ = writeln!(text, "      {}", member.formula);
+        for hole in &member.holes {
+            let _ = writeln!(text, "      with {hole}");
+        }
     }
     waiting.for_each(|known| text += &incumbent_row(known, front));
     if front.members.len() + incumbents.len() > 1 {

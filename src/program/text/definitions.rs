@@ -1,6 +1,9 @@
 //! What a text has defined: its names, constants and results.
 
+pub(super) use super::holes::HoleCall;
+use super::holes::Holes;
 use super::lex::Number;
+use super::syntax::Value;
 use super::{FreeConstant, Names, Parsed, Scope};
 use crate::op::{MAX_ARITY, Op};
 use crate::program::{Arg, Draft, Instr, Program};
@@ -16,7 +19,7 @@ pub(super) struct Definitions {
     inputs: HashMap<String, usize>,
     outputs: HashSet<String>,
     open: bool,
-    assigned: HashMap<String, Arg>,
+    assigned: HashMap<String, Value>,
     /// The names assigned, in order.
     statements: Vec<String>,
     /// Those that a later statement reads.
@@ -29,6 +32,8 @@ pub(super) struct Definitions {
     constants: HashMap<u64, Arg>,
     /// Results by the instruction that computes them.
     results: HashMap<Instr, Arg>,
+    /// What is to be found, if the text may leave functions and constants open.
+    holes: Option<Holes>,
 }
 
 impl Definitions {
@@ -51,7 +56,25 @@ impl Definitions {
             exact: Vec::new(),
             constants: HashMap::new(),
             results: HashMap::new(),
+            holes: None,
         }
+    }
+
+    /// Definitions in which functions that are called and nowhere defined are holes, and free
+    /// constants are, too.
+    pub(super) fn with_holes(names: &Names) -> Definitions {
+        let columns = names.inputs.len();
+        Definitions { holes: Some(Holes::new(columns)), ..Definitions::new(Scope::Dataset(names)) }
+    }
+
+    pub(super) fn has_holes(&self) -> bool {
+        self.holes.is_some()
+    }
+
+    /// Returns the values of a hole.
+    pub(super) fn hole(&mut self, call: HoleCall) -> Result<Value, String> {
+        let Definitions { holes, draft, .. } = self;
+        holes.as_mut().expect("asked for only where there are some").call(call, draft)
     }
 
     /// Returns a name that a statement may assign, as an example for messages.
@@ -70,18 +93,18 @@ impl Definitions {
         Ok(())
     }
 
-    pub(super) fn assign(&mut self, name: String, value: Arg) {
+    pub(super) fn assign(&mut self, name: String, value: Value) {
         self.assigned.insert(name.clone(), value);
         self.statements.push(name);
     }
 
-    pub(super) fn name(&mut self, name: String) -> Result<Arg, String> {
-        if let Some(&value) = self.assigned.get(&name) {
+    pub(super) fn name(&mut self, name: String) -> Result<Value, String> {
+        if let Some(value) = self.assigned.get(&name) {
             self.read.insert(name);
-            return Ok(value);
+            return Ok(value.clone());
         }
         if let Some(&index) = self.inputs.get(&name) {
-            return Ok(Arg::Input(index as u16));
+            return Ok(vec![Arg::Input(index as u16)]);
         }
         if self.outputs.contains(&name) {
             return Err(format!("output `{name}` is used before it is assigned"));
@@ -92,7 +115,7 @@ impl Definitions {
             self.inputs.insert(name.clone(), index);
             self.names.inputs.push(name);
             self.draft.inputs = index + 1;
-            return Ok(Arg::Input(index as u16));
+            return Ok(vec![Arg::Input(index as u16)]);
         }
         let candidates = self.names.inputs.iter().chain(self.assigned.keys());
         let hint = did_you_mean(&name, candidates.map(String::as_str));
@@ -111,13 +134,22 @@ impl Definitions {
         Ok(constant)
     }
 
-    pub(super) fn free_constant(&mut self, name: String) -> Result<Arg, String> {
+    /// Returns the free constant of this name, which starts at 1 unless its start is known.
+    pub(super) fn free_constant(
+        &mut self,
+        name: String,
+        start: Option<f32>,
+    ) -> Result<Arg, String> {
+        if let Some(holes) = &mut self.holes {
+            return holes.constant(name, start);
+        }
         if let Some(&known) = self.free_places.get(&name) {
             return Ok(known);
         }
         self.room(self.draft.consts.len(), "constants")?;
-        let arg = self.draft.constant(1.0);
-        self.exact.push(1.0);
+        let value = start.unwrap_or(1.0);
+        let arg = self.draft.constant(value);
+        self.exact.push(value.into());
         if let Arg::Const(index) = arg {
             self.free_places.insert(name.clone(), arg);
             self.free.push(FreeConstant { name, index });
@@ -134,6 +166,9 @@ impl Definitions {
         self.room(self.draft.instrs.len(), "operations")?;
         let result = self.draft.push(op, args);
         self.results.insert(instr, result);
+        if let Some(holes) = &mut self.holes {
+            holes.note(args);
+        }
         Ok(result)
     }
 
@@ -169,17 +204,59 @@ impl Definitions {
         }
     }
 
-    pub(super) fn finish(mut self) -> Result<Parsed, String> {
+    /// Returns the outputs that are assigned, in order.
+    pub(super) fn outputs_assigned(&self) -> Vec<String> {
+        let assigned = self.names.outputs.iter().filter(|name| self.assigned.contains_key(*name));
+        assigned.cloned().collect()
+    }
+
+    /// Ends a text with holes: their values are further inputs of the program.
+    pub(super) fn finish_with_holes(mut self) -> Result<(Parsed, Holes), String> {
+        let holes = self.holes.take().expect("it began with holes");
+        let slots = holes.slots();
+        let outputs = listed(&self.names.outputs);
+        let parsed = self.finish_over(slots)?;
+        let is_output = |name: &String| parsed.names.outputs.contains(name);
+        if let Some(idle) = parsed.unread.iter().find(|name| !is_output(name)) {
+            return Err(format!(
+                "`{idle}` is no output of the data, and nothing reads it (outputs: {outputs})"
+            ));
+        }
+        holes.check_used(&parsed.program)?;
+        Ok((parsed, holes))
+    }
+
+    /// Ends with these values as the outputs.
+    pub(super) fn finish_with(mut self, outputs: Value) -> Result<Program, String> {
+        self.draft.inputs = self.names.inputs.len();
+        self.draft.outputs = outputs;
+        if let Some(free) = self.free.first() {
+            return Err(format!("`${}` stands in a function; give it a value", free.name));
+        }
+        Program::verify(self.draft).map_err(|invalid| invalid.to_string())
+    }
+
+    pub(super) fn finish(self) -> Result<Parsed, String> {
+        self.finish_over(0)
+    }
+
+    fn finish_over(mut self, slots: usize) -> Result<Parsed, String> {
         if self.open && self.names.outputs.is_empty() {
             self.names.outputs.extend(self.statements.last().cloned());
         }
         if self.names.outputs.is_empty() {
             return Err("the formula has no statement".to_owned());
         }
-        self.draft.inputs = self.names.inputs.len();
+        self.draft.inputs = self.names.inputs.len() + slots;
         for output in &self.names.outputs {
-            match self.assigned.get(output) {
-                Some(value) => self.draft.outputs.push(*value),
+            match self.assigned.get(output).map(Vec::as_slice) {
+                Some([value]) => self.draft.outputs.push(*value),
+                Some(vector) => {
+                    let width = vector.len();
+                    return Err(format!(
+                        "output `{output}` is one value, but a vector of {width} is assigned to it"
+                    ));
+                }
                 None => {
                     let hint = did_you_mean(output, self.assigned.keys().map(String::as_str));
                     return Err(format!("output `{output}` is never assigned{hint}"));

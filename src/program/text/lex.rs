@@ -9,9 +9,9 @@ pub(super) enum Token {
     /// `$name`
     Free(String),
     Number(Number),
-    /// One of `+ - * / ^ ( ) , = < > ? :`
+    /// One of `+ - * / ^ ( ) , = < > ? :`, or `;` within parentheses
     Symbol(char),
-    /// `;` or a new line
+    /// `;` or a new line, outside of parentheses
     End,
 }
 
@@ -99,6 +99,98 @@ impl Tokens<'_> {
         false
     }
 
+    /// Goes to the token of this index, and returns the index of the next one until now.
+    pub(super) fn go_to(&mut self, index: usize) -> usize {
+        std::mem::replace(&mut self.next, index)
+    }
+
+    /// Skips the rest of the statement.
+    pub(super) fn skip_statement(&mut self) {
+        while self.peek().is_some_and(|token| *token != Token::End) {
+            self.next += 1;
+        }
+    }
+
+    /// Returns the name, the parameters and the index of the body of the definition that begins
+    /// with the next token, if one does: `name(parameter, …) = body`.
+    pub(super) fn definition(&self) -> Option<(String, Vec<String>, usize)> {
+        self.definition_at(self.next)
+    }
+
+    fn definition_at(&self, first: usize) -> Option<(String, Vec<String>, usize)> {
+        let token = |index: usize| self.all.get(index).map(|(_, token)| token);
+        let name_at = |index: usize| match token(index) {
+            Some(Token::Name(name)) => Some(name.clone()),
+            _ => None,
+        };
+        let is = |index: usize, symbol: char| token(index) == Some(&Token::Symbol(symbol));
+        let name = name_at(first).filter(|_| is(first + 1, '('))?;
+        let mut parameters = vec![name_at(first + 2)?];
+        let mut at = first + 3;
+        while is(at, ',') {
+            parameters.push(name_at(at + 1)?);
+            at += 2;
+        }
+        (is(at, ')') && is(at + 1, '=')).then_some((name, parameters, at + 2))
+    }
+
+    /// Returns all definitions, each with its byte offset.
+    pub(super) fn definitions(&self) -> Vec<(usize, (String, Vec<String>, usize))> {
+        let begins = |index: &usize| match index.checked_sub(1) {
+            Some(before) => self.all[before].1 == Token::End,
+            None => true,
+        };
+        let starts = (0..self.all.len()).filter(begins);
+        starts.filter_map(|at| Some((self.all[at].0, self.definition_at(at)?))).collect()
+    }
+
+    /// Returns the token after the call that is the whole of the next expression; none if another
+    /// operation follows, or the next expression is no call. The end counts as [`Token::End`].
+    pub(super) fn after_call(&self) -> Option<&Token> {
+        let is_named = matches!(self.peek(), Some(Token::Name(_) | Token::Free(_)));
+        if !is_named || self.peek_second() != Some(&Token::Symbol('(')) {
+            return None;
+        }
+        let mut depth = 0;
+        for (at, (_, token)) in self.all.iter().enumerate().skip(self.next) {
+            match token {
+                Token::Symbol('(') => depth += 1,
+                Token::Symbol(')') => depth -= 1,
+                _ => continue,
+            }
+            if depth == 0 {
+                let after = self.all.get(at + 1).map_or(&Token::End, |(_, token)| token);
+                let ends = matches!(after, Token::End | Token::Symbol(',' | ')'));
+                return ends.then_some(after);
+            }
+        }
+        None
+    }
+
+    /// Returns, for each argument from here to the closing parenthesis, its name if it is only one.
+    pub(super) fn names_of_arguments(&self) -> Vec<Option<String>> {
+        let mut names = Vec::new();
+        let (mut depth, mut only, mut count) = (0, None, 0);
+        for (_, token) in &self.all[self.next..] {
+            match token {
+                Token::Symbol(',' | ')') if depth == 0 => {
+                    names.push(only.take().filter(|_| count == 1));
+                    count = 0;
+                    if *token == Token::Symbol(')') {
+                        break;
+                    }
+                    continue;
+                }
+                Token::Symbol('(') => depth += 1,
+                Token::Symbol(')') => depth -= 1,
+                Token::Name(name) => only = Some(name.clone()),
+                _ => {}
+            }
+            count += 1;
+        }
+        names
+    }
+
     pub(super) fn take_symbol(&mut self, symbol: char) -> bool {
         let found = self.peek() == Some(&Token::Symbol(symbol));
         self.next += usize::from(found);
@@ -124,6 +216,7 @@ fn split(text: &str) -> Result<Vec<(usize, Token)>, ParseError> {
         let token = match c {
             // Inside parentheses a statement goes on over line ends.
             '\n' if depth > 0 => continue,
+            ';' if depth > 0 => Token::Symbol(c),
             ';' | '\n' => Token::End,
             c if c.is_whitespace() => continue,
             c if c == '#' || text[start..].starts_with("//") => {

@@ -8,20 +8,27 @@
 //! # Ok::<(), lgp::program::ParseError>(())
 //! ```
 
+mod call;
 mod claim;
 mod definitions;
 mod excerpt;
 mod functions;
+mod guess;
+mod holes;
 mod lex;
 mod parse;
 mod print;
+mod statements;
 mod syntax;
 
 pub use claim::{ALWAYS_ASKED, Claim};
 pub(crate) use excerpt::{place, plain, pointed};
+pub(super) use guess::parse_guess;
+pub(super) use holes::{Holes, OpenCall, OpenFunction};
 pub use parse::{
     FreeConstant, MAX_FORMULA, ParseError, Parsed, Scope, parse, parse_open, parse_template,
 };
+pub(super) use parse::{assigned_by, parse_with_holes};
 pub use print::{format_constant, print, print_expression, shortest};
 
 use serde::{Deserialize, Serialize};

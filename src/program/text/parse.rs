@@ -1,6 +1,7 @@
 //! The ways to parse a text, and what they return.
 
 use super::excerpt::{place, pointed};
+use super::holes::Holes;
 use super::{Names, syntax};
 use crate::program::Program;
 
@@ -95,11 +96,34 @@ pub fn parse_open(text: &str, outputs: &[String]) -> Result<Parsed, ParseError> 
 /// # Errors
 /// As [`parse`].
 pub fn parse_template(text: &str, scope: Scope) -> Result<Parsed, ParseError> {
-    if text.len() > MAX_FORMULA {
-        let message = format!("a formula of {} bytes is too long (at most 1 MiB)", text.len());
-        return Err(ParseError::at(text, 0, message));
-    }
+    check_length(text)?;
     syntax::parse_text(text, scope)
+}
+
+/// Parses a text that may call functions to be found.
+pub(in crate::program) fn parse_with_holes(
+    text: &str,
+    names: &Names,
+) -> Result<(Parsed, Holes), ParseError> {
+    check_length(text)?;
+    syntax::parse_text_with_holes(text, names)
+}
+
+/// Returns the outputs that a text, which may call functions to be found, assigns.
+pub(in crate::program) fn assigned_by(
+    text: &str,
+    names: &Names,
+) -> Result<Vec<String>, ParseError> {
+    check_length(text)?;
+    syntax::assigned_in(text, names)
+}
+
+fn check_length(text: &str) -> Result<(), ParseError> {
+    if text.len() <= MAX_FORMULA {
+        return Ok(());
+    }
+    let message = format!("a formula of {} bytes is too long (at most 1 MiB)", text.len());
+    Err(ParseError::at(text, 0, message))
 }
 
 /// The most bytes of a formula; longer text is refused unread. By hand.

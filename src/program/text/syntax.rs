@@ -1,81 +1,90 @@
 //! Parses statements and expressions from tokens, by recursive descent.
 
+use super::call::Written;
 use super::definitions::Definitions;
-use super::functions::{self, Function};
+use super::holes::Holes;
 use super::lex::{Number, Token, Tokens};
-use super::{ParseError, Parsed, Scope};
+use super::{Names, ParseError, Parsed, Scope};
 use crate::op::Op;
 use crate::program::Arg;
-use crate::suggest::did_you_mean;
+use std::collections::HashMap;
 
 /// Parses a whole text.
 pub(super) fn parse_text(text: &str, scope: Scope) -> Parse<Parsed> {
-    let tokens = Tokens::new(text)?;
-    let mut parser = Parser { tokens, depth: 0, definitions: Definitions::new(scope) };
+    let mut parser = Parser::new(text, Definitions::new(scope))?;
     parser.statements()?;
     let Parser { tokens, definitions, .. } = parser;
     tokens.placed(tokens.offset(), definitions.finish())
 }
 
-struct Parser<'a> {
-    tokens: Tokens<'a>,
+/// Parses a whole text that may call functions to be found.
+pub(super) fn parse_text_with_holes(text: &str, names: &Names) -> Parse<(Parsed, Holes)> {
+    let mut parser = Parser::new(text, Definitions::with_holes(names))?;
+    parser.statements()?;
+    let Parser { tokens, definitions, .. } = parser;
+    tokens.placed(tokens.offset(), definitions.finish_with_holes())
+}
+
+/// Returns the outputs that such a text assigns.
+pub(super) fn assigned_in(text: &str, names: &Names) -> Parse<Vec<String>> {
+    let mut parser = Parser::new(text, Definitions::with_holes(names))?;
+    parser.statements()?;
+    Ok(parser.definitions.outputs_assigned())
+}
+
+/// The values of an expression: one, or those of a vector.
+pub(super) type Value = Vec<Arg>;
+
+pub(super) struct Parser<'a> {
+    pub(super) tokens: Tokens<'a>,
     depth: usize,
-    definitions: Definitions,
+    pub(super) definitions: Definitions,
+    /// The functions that the text defines, by name.
+    pub(super) written: HashMap<String, Written>,
+    /// The calls of such functions that are being written out, the innermost last; first, none.
+    pub(super) frames: Vec<Frame>,
+    /// What calls of such functions returned, by name and arguments.
+    pub(super) returned: HashMap<(String, Vec<Value>), Value>,
+}
+
+/// The names that mean something only where they stand: parameters, and values named within
+/// parentheses.
+#[derive(Default)]
+pub(super) struct Frame {
+    /// The function that is written out.
+    pub(super) function: Option<String>,
+    pub(super) values: Vec<(String, Value)>,
 }
 
 /// A comparison as the table has it: `less[0] < less[1]`, or not that.
 struct Condition {
-    less: [Arg; 2],
+    less: [Value; 2],
     negated: bool,
 }
 
 /// The deepest nesting of parentheses, calls and signs: each level takes some of the stack.
 const MAX_DEPTH: usize = 200;
 
-type Parse<T> = Result<T, ParseError>;
+pub(super) type Parse<T> = Result<T, ParseError>;
+
+impl<'a> Parser<'a> {
+    pub(super) fn new(text: &'a str, definitions: Definitions) -> Parse<Parser<'a>> {
+        let mut parser = Parser {
+            tokens: Tokens::new(text)?,
+            depth: 0,
+            definitions,
+            written: HashMap::new(),
+            frames: vec![Frame::default()],
+            returned: HashMap::new(),
+        };
+        parser.collect_written()?;
+        Ok(parser)
+    }
+}
 
 impl Parser<'_> {
-    fn statements(&mut self) -> Parse<()> {
-        loop {
-            while self.tokens.peek() == Some(&Token::End) {
-                self.tokens.skip(1);
-            }
-            if self.tokens.peek().is_none() {
-                return Ok(());
-            }
-            self.statement()?;
-            match self.tokens.peek() {
-                None | Some(Token::End) => {}
-                Some(Token::Symbol('?')) => {
-                    let message = "`?` needs a comparison before it, as in `a < b ? x : y`";
-                    return self.tokens.error(self.tokens.offset(), message);
-                }
-                Some(_) => {
-                    let message = "expected an operator, or `;` before the next statement";
-                    return self.tokens.error(self.tokens.offset(), message);
-                }
-            }
-        }
-    }
-
-    fn statement(&mut self) -> Parse<()> {
-        let start = self.tokens.offset();
-        let (Some(Token::Name(name)), Some(Token::Symbol('='))) =
-            (self.tokens.peek().cloned(), self.tokens.peek_second())
-        else {
-            let example = self.definitions.example();
-            let message = format!("expected `name = expression`, as in `{example} = …`");
-            return self.tokens.error(start, message);
-        };
-        self.tokens.skip(2);
-        self.tokens.placed(start, self.definitions.check_assignable(&name))?;
-        let value = self.expression()?;
-        self.definitions.assign(name, value);
-        Ok(())
-    }
-
     /// Parses a sum, or a choice `a < b ? x : y`.
-    fn expression(&mut self) -> Parse<Arg> {
+    pub(super) fn expression(&mut self) -> Parse<Value> {
         let condition = if self.tokens.open_condition() {
             self.tokens.skip(1);
             let left = self.sum()?;
@@ -97,7 +106,7 @@ impl Parser<'_> {
     }
 
     /// Parses a comparison from its operator on.
-    fn comparison(&mut self, left: Arg) -> Parse<Condition> {
+    fn comparison(&mut self, left: Value) -> Parse<Condition> {
         let less = self.tokens.take_symbol('<');
         if !less {
             self.tokens
@@ -113,13 +122,13 @@ impl Parser<'_> {
         })
     }
 
-    fn choose(&mut self, condition: Condition, yes: Arg, no: Arg) -> Parse<Arg> {
+    fn choose(&mut self, condition: Condition, yes: Value, no: Value) -> Parse<Value> {
         let Condition { less: [a, b], negated } = condition;
         let [holds, fails] = if negated { [no, yes] } else { [yes, no] };
         self.apply(Op::Select, &[a, b, holds, fails])
     }
 
-    fn sum(&mut self) -> Parse<Arg> {
+    fn sum(&mut self) -> Parse<Value> {
         let mut value = self.product()?;
         loop {
             let op = match self.tokens.peek() {
@@ -133,7 +142,7 @@ impl Parser<'_> {
         }
     }
 
-    fn product(&mut self) -> Parse<Arg> {
+    fn product(&mut self) -> Parse<Value> {
         let mut value = self.negation()?;
         loop {
             let op = match self.tokens.peek() {
@@ -147,12 +156,12 @@ impl Parser<'_> {
         }
     }
 
-    fn negation(&mut self) -> Parse<Arg> {
+    fn negation(&mut self) -> Parse<Value> {
         self.nested(Parser::signed_power)
     }
 
     /// Counts the depth: every nesting passes through here.
-    fn nested(&mut self, parse: fn(&mut Self) -> Parse<Arg>) -> Parse<Arg> {
+    pub(super) fn nested(&mut self, parse: fn(&mut Self) -> Parse<Value>) -> Parse<Value> {
         if self.depth == MAX_DEPTH {
             return self.tokens.error(
                 self.tokens.offset(),
@@ -165,7 +174,7 @@ impl Parser<'_> {
         value
     }
 
-    fn signed_power(&mut self) -> Parse<Arg> {
+    fn signed_power(&mut self) -> Parse<Value> {
         if self.tokens.take_symbol('+') {
             return self.negation();
         }
@@ -187,7 +196,7 @@ impl Parser<'_> {
         self.apply(Op::Neg, &[value])
     }
 
-    fn power(&mut self) -> Parse<Arg> {
+    fn power(&mut self) -> Parse<Value> {
         let base = self.atom()?;
         if !self.tokens.take_symbol('^') {
             return Ok(base);
@@ -215,32 +224,32 @@ impl Parser<'_> {
         }
     }
 
-    fn repeated_product(&mut self, x: Arg, exponent: f32, at: usize) -> Parse<Arg> {
-        let square = |p: &mut Self, x| p.apply(Op::Mul, &[x, x]);
+    fn repeated_product(&mut self, x: Value, exponent: f32, at: usize) -> Parse<Value> {
+        let square = |p: &mut Self, x: &Value| p.apply(Op::Mul, &[x.clone(), x.clone()]);
         match exponent {
-            2.0 => square(self, x),
+            2.0 => square(self, &x),
             3.0 => {
-                let x2 = square(self, x)?;
+                let x2 = square(self, &x)?;
                 self.apply(Op::Mul, &[x2, x])
             }
             4.0 => {
-                let x2 = square(self, x)?;
-                square(self, x2)
+                let x2 = square(self, &x)?;
+                square(self, &x2)
             }
             5.0 => {
-                let x2 = square(self, x)?;
-                let x4 = square(self, x2)?;
+                let x2 = square(self, &x)?;
+                let x4 = square(self, &x2)?;
                 self.apply(Op::Mul, &[x4, x])
             }
             6.0 => {
-                let x2 = square(self, x)?;
+                let x2 = square(self, &x)?;
                 let x3 = self.apply(Op::Mul, &[x2, x])?;
-                square(self, x3)
+                square(self, &x3)
             }
             8.0 => {
-                let x2 = square(self, x)?;
-                let x4 = square(self, x2)?;
-                square(self, x4)
+                let x2 = square(self, &x)?;
+                let x4 = square(self, &x2)?;
+                square(self, &x4)
             }
             other => self.tokens.error(
                 at,
@@ -249,7 +258,7 @@ impl Parser<'_> {
         }
     }
 
-    fn atom(&mut self) -> Parse<Arg> {
+    fn atom(&mut self) -> Parse<Value> {
         let at = self.tokens.offset();
         let Some(token) = self.tokens.peek().cloned() else {
             return self.tokens.error(at, "the formula ends where a value is expected");
@@ -257,14 +266,13 @@ impl Parser<'_> {
         self.tokens.skip(1);
         match token {
             Token::Number(value) => self.constant(value, at),
-            Token::Free(name) => self.tokens.placed(at, self.definitions.free_constant(name)),
-            Token::Symbol('(') => {
-                let value = self.expression()?;
-                self.tokens.expect(')', "to close the parenthesis")?;
-                Ok(value)
+            Token::Free(name) if self.tokens.take_symbol('(') => self.matrix(&name, at, None),
+            Token::Free(name) => {
+                Ok(vec![self.tokens.placed(at, self.definitions.free_constant(name, None))?])
             }
+            Token::Symbol('(') => self.parenthesised(),
             Token::Name(name) if self.tokens.take_symbol('(') => self.call(&name, at),
-            Token::Name(name) => self.tokens.placed(at, self.definitions.name(name)),
+            Token::Name(name) => self.name(name, at),
             Token::Symbol(symbol) => {
                 self.tokens.error(at, format!("expected a value, found `{symbol}`"))
             }
@@ -272,45 +280,41 @@ impl Parser<'_> {
         }
     }
 
-    fn call(&mut self, name: &str, at: usize) -> Parse<Arg> {
-        if let "add" | "sub" | "mul" | "div" | "neg" = name {
-            let message = format!("`{name}` has no function form; write + - * /");
-            return self.tokens.error(at, message);
+    /// Parses `x)`, a vector `x, y)`, or either after names of its own: `t = x*x; t + x)`.
+    fn parenthesised(&mut self) -> Parse<Value> {
+        let outside = self.frame().values.len();
+        while let (Some(Token::Name(name)), Some(Token::Symbol('='))) =
+            (self.tokens.peek().cloned(), self.tokens.peek_second())
+        {
+            self.tokens.skip(2);
+            let value = self.expression()?;
+            self.tokens.expect(';', "after a value that is named within parentheses")?;
+            self.frame().values.push((name, value));
         }
-        if name == Op::Select.name() {
-            return self.select();
+        let mut value = self.expression()?;
+        while self.tokens.take_symbol(',') {
+            value.extend(self.expression()?);
         }
-        let Some(function) = Function::find(name) else {
-            let hint = did_you_mean(name, functions::names());
-            return self.tokens.error(at, format!("unknown operation `{name}`{hint}"));
-        };
-        let args = self.arguments()?;
-        let function = function.of_arguments(args.len());
-        if args.len() != function.arity() {
-            let (given, wanted) = (args.len(), function.arity());
-            let plural = if wanted == 1 { "" } else { "s" };
-            let message = format!("`{name}` takes {wanted} argument{plural}, not {given}");
-            return self.tokens.error(at, message);
-        }
-        match function {
-            Function::Operation(op) => self.apply(op, &args),
-            Function::Formula(formula) => {
-                self.tokens.placed(at, self.definitions.write_out(&formula, &args))
-            }
-        }
+        self.tokens.expect(')', "to close the parenthesis")?;
+        self.frame().values.truncate(outside);
+        Ok(value)
     }
 
-    fn arguments(&mut self) -> Parse<Vec<Arg>> {
-        let mut args = vec![self.expression()?];
-        while self.tokens.take_symbol(',') {
-            args.push(self.expression()?);
+    /// Returns the innermost frame.
+    pub(super) fn frame(&mut self) -> &mut Frame {
+        self.frames.last_mut().expect("the outermost frame stays")
+    }
+
+    fn name(&mut self, name: String, at: usize) -> Parse<Value> {
+        let local = self.frame().values.iter().rev().find(|(known, _)| *known == name);
+        match local {
+            Some((_, value)) => Ok(value.clone()),
+            None => self.tokens.placed(at, self.definitions.name(name)),
         }
-        self.tokens.expect(')', "after the arguments")?;
-        Ok(args)
     }
 
     /// Parses `a < b, x, y)`.
-    fn select(&mut self) -> Parse<Arg> {
+    pub(super) fn select(&mut self) -> Parse<Value> {
         let left = self.sum()?;
         let condition = self.comparison(left)?;
         self.tokens.expect(',', "after the condition of `select(a < b, x, y)`")?;
@@ -321,11 +325,31 @@ impl Parser<'_> {
         self.choose(condition, yes, no)
     }
 
-    fn constant(&mut self, value: Number, at: usize) -> Parse<Arg> {
-        self.tokens.placed(at, self.definitions.constant(value))
+    fn constant(&mut self, value: Number, at: usize) -> Parse<Value> {
+        Ok(vec![self.tokens.placed(at, self.definitions.constant(value))?])
     }
 
-    fn apply(&mut self, op: Op, args: &[Arg]) -> Parse<Arg> {
-        self.tokens.placed(self.tokens.offset(), self.definitions.apply(op, args))
+    /// Applies an operation to values, or to each component of vectors.
+    pub(super) fn apply(&mut self, op: Op, args: &[Value]) -> Parse<Value> {
+        let at = self.tokens.offset();
+        let width = self.tokens.placed(at, common_width(args))?;
+        let component = |place: usize| {
+            let component: Vec<Arg> = args.iter().map(|value| value[place % value.len()]).collect();
+            self.definitions.apply(op, &component)
+        };
+        let components = (0..width).map(component).collect();
+        self.tokens.placed(at, components)
+    }
+}
+
+/// Returns the number of components of what is computed of some values; single values go with each
+/// component of the others.
+pub(super) fn common_width(values: &[Value]) -> Result<usize, String> {
+    let width = values.iter().map(Vec::len).max().unwrap_or(1);
+    match values.iter().map(Vec::len).find(|&other| other != width && other != 1) {
+        None => Ok(width),
+        Some(other) => {
+            Err(format!("values of {other} and of {width} components do not go together"))
+        }
     }
 }

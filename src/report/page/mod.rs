@@ -110,6 +110,8 @@ pub struct Formula {
     pub verdict: serde_json::Value,
     /// The formula's text.
     pub formula: String,
+    /// What fills the holes of the run's template, if it has one.
+    pub holes: Vec<String>,
     /// Lines of the comment above each function.
     pub header: Vec<String>,
     /// The code in each language.

@@ -1,26 +1,45 @@
 //! Random drafts, operations, arguments and constants.
 
+use super::repair::repair;
 use crate::grammar::Grammar;
 use crate::op::{MAX_ARITY, Op};
-use crate::program::{Arg, Draft};
+use crate::program::{Arg, Draft, Reads, Shape};
 use rand::RngExt;
 use rand_chacha::ChaCha8Rng;
 
-/// Makes `draft` a random one, with one to five instructions for each output.
+/// Makes `draft` a random one of a shape, with one to five instructions for each output that is no
+/// constant.
 pub(in crate::search) fn random_draft(
     rng: &mut ChaCha8Rng,
-    inputs: usize,
-    outputs: usize,
+    shape: &Shape,
     grammar: &Grammar,
     draft: &mut Draft,
 ) {
-    draft.clear(inputs);
-    for _ in 0..outputs {
+    draft.clear(shape.inputs);
+    for reads in shape.reads() {
+        if let Reads::Constant(start) = reads {
+            let value = match *start {
+                Some(start) => near(rng, start),
+                None => random_constant(rng),
+            };
+            let value = draft.constant(value);
+            draft.outputs.push(value);
+            continue;
+        }
         for _ in 0..rng.random_range(1..6) {
             push_random(rng, draft, grammar);
         }
         draft.outputs.push(Arg::Result((draft.instrs.len() - 1) as u16));
     }
+    repair(rng, draft, shape);
+}
+
+/// The farthest that a constant whose start is known begins from it: an entry of a matrix. By hand:
+/// equal rows, which fits would keep equal, are left at once.
+const AWAY: f32 = 0.125;
+
+fn near(rng: &mut ChaCha8Rng, start: f32) -> f32 {
+    start + rng.random_range(-AWAY..AWAY)
 }
 
 /// Adds an instruction on random values, more often than not with the latest result among them.

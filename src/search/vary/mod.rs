@@ -5,19 +5,21 @@ mod draw;
 mod edge;
 mod insertions;
 mod rates;
+mod repair;
 
 pub(super) use draw::{random_constant, random_draft};
 pub(super) use insertions::{insertion_count, insertions};
 pub(super) use rates::Rates;
 
 use crate::grammar::Grammar;
-use crate::program::{Arg, Draft, effective_into};
+use crate::program::{Arg, Draft, Shape, effective_into};
 use change::{
     change_argument, change_constant, change_operation, delete, exchange_constant, grow, insert,
 };
 use edge::{edge_mut, pick_edge, shift_results};
 use rand::RngExt;
 use rand_chacha::ChaCha8Rng;
+use repair::repair;
 
 /// The kinds of change, each with its relative rate as long as nothing is known of its success.
 /// Chosen by hand, unmeasured.
@@ -70,9 +72,31 @@ impl Variation {
         self.weights = rates.weights();
     }
 
-    /// Changes `child`, a copy of its parent, by one or a few moves. Returns their kinds, each as
-    /// the bit of its index in [`MOVES`].
+    /// Changes `child`, a copy of its parent, by one or a few moves, and keeps its shape. Returns
+    /// their kinds, each as the bit of its index in [`MOVES`].
     pub fn vary(
+        &mut self,
+        rng: &mut ChaCha8Rng,
+        child: &mut Draft,
+        donor: &Draft,
+        grammar: &Grammar,
+        shape: &Shape,
+    ) -> u16 {
+        // Outputs that are constants stay so, and no move sees them.
+        let constants = child.outputs.split_off(shape.formulas());
+        let made_by = match child.outputs.is_empty() {
+            true => {
+                change_constant(rng, child);
+                0
+            }
+            false => self.moves(rng, child, donor, grammar),
+        };
+        child.outputs.extend(constants);
+        repair(rng, child, shape);
+        made_by
+    }
+
+    fn moves(
         &mut self,
         rng: &mut ChaCha8Rng,
         child: &mut Draft,
