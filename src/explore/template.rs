@@ -1,0 +1,379 @@
+//! Templates that the forms found suggest, and what they would gain.
+
+use super::departure::{Departure, Verdict};
+use super::design::terms_up_to;
+use super::form::{Form, number};
+use super::output::{Finding, Influence, Tested};
+use super::shape::{Coordinate, Join, Shape};
+use crate::dataset::Dataset;
+use serde::Serialize;
+
+/// A formula with holes, for a search.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Template {
+    /// Functions that it calls and does not define are to be found.
+    pub formula: String,
+    /// What the data say of it.
+    pub verdict: Verdict,
+    /// By how much they depart from it; its `residual` is what is left at best.
+    pub departure: Departure,
+    /// The number of functions to be found.
+    pub holes: usize,
+    /// The most arguments of one of them; the smooth fit's number of inputs without a template.
+    pub most_arguments: usize,
+    /// The number of inputs without a template.
+    pub inputs: usize,
+    /// The terms of polynomials in the holes, of the smooth fit's degree.
+    pub terms: usize,
+    /// The terms of the smooth fit, without a template.
+    pub all_terms: usize,
+}
+
+/// Names of holes, as far as no column has them.
+const NAMES: [&str; 12] = ["f", "g", "h", "p", "q", "r", "s", "t", "u", "v", "w", "z"];
+
+/// An argument of holes.
+#[derive(Clone)]
+struct Argument {
+    coordinate: Coordinate,
+    text: String,
+    /// How often its degree counts: twice for a square.
+    degree: usize,
+}
+
+/// A formula with holes that is to be fitted.
+struct Candidate {
+    shape: Shape,
+    arguments: Vec<Argument>,
+    /// What stands before it: the input in which it is odd.
+    factor: String,
+    /// For each part, the part that is the same function.
+    same: Vec<usize>,
+}
+
+/// Fits the templates that forms suggest; returns the best that holds, and one that is smaller still
+/// but holds only nearly.
+pub(super) fn templates(
+    dataset: &Dataset,
+    output: &str,
+    tested: &Tested,
+    influences: &[Influence],
+    forms: &[Finding],
+) -> Vec<Template> {
+    let mut best: Vec<Template> = Vec::new();
+    for level in [Verdict::Holds, Verdict::Nearly] {
+        let suggested = Suggested { dataset, tested, forms, level };
+        let inputs: Vec<usize> = (tested.inputs.iter().copied())
+            .filter(|&input| !influences[input].verdict.is_some_and(|v| suggested.accepts(v)))
+            .collect();
+        let fitted = suggested.candidates(&inputs).into_iter().map(|candidate| {
+            let departure = suggested.departure(&candidate);
+            suggested.template(output, &candidate, departure)
+        });
+        let mut fitted: Vec<Template> =
+            fitted.filter(|template| suggested.accepts(template.verdict)).collect();
+        let size = |template: &Template| (template.most_arguments, template.terms);
+        fitted.sort_by(|a, b| {
+            let residuals = a.departure.residual.total_cmp(&b.departure.residual);
+            size(a).cmp(&size(b)).then(residuals)
+        });
+        let smaller = |template: &Template| best.iter().all(|best| size(template) < size(best));
+        let first = fitted.into_iter().next().filter(smaller);
+        best.extend(first);
+    }
+    best
+}
+
+struct Suggested<'a> {
+    dataset: &'a Dataset,
+    tested: &'a Tested<'a>,
+    forms: &'a [Finding],
+    level: Verdict,
+}
+
+impl Suggested<'_> {
+    fn accepts(&self, verdict: Verdict) -> bool {
+        verdict == Verdict::Holds || verdict == self.level
+    }
+
+    /// Returns the forms that hold well enough, those with the smallest departure first.
+    fn accepted(&self) -> Vec<&Finding> {
+        let mut accepted: Vec<&Finding> =
+            self.forms.iter().filter(|finding| self.accepts(finding.verdict)).collect();
+        accepted.sort_by(|a, b| {
+            let level = |finding: &Finding| finding.verdict != Verdict::Holds;
+            let by_level = level(a).cmp(&level(b));
+            by_level.then(a.departure.residual.total_cmp(&b.departure.residual))
+        });
+        accepted
+    }
+
+    fn holds(&self, form: &Form) -> bool {
+        self.forms.iter().any(|finding| finding.form == *form && self.accepts(finding.verdict))
+    }
+
+    fn candidates(&self, inputs: &[usize]) -> Vec<Candidate> {
+        if inputs.is_empty() {
+            return Vec::new();
+        }
+        let pairs = self.pairs(inputs);
+        let mut candidates = Vec::new();
+        for with in [&pairs[..], &[]] {
+            let (arguments, odd) = self.arguments(inputs, with);
+            let changed = with.len() + (self.tested.inputs.len() - inputs.len());
+            let folded = arguments.iter().any(|argument| argument.degree > 1);
+            if changed > 0 || folded {
+                candidates.push(self.candidate(&arguments, odd, None));
+            }
+            for join in [Join::Product, Join::Sum] {
+                let parts = self.parts(&arguments, join);
+                // A sum that is odd as a whole has but one part.
+                if parts.len() > 1 && !(join == Join::Sum && odd.is_some()) {
+                    candidates.push(self.candidate(&arguments, odd, Some((join, parts))));
+                }
+            }
+            if pairs.is_empty() {
+                break;
+            }
+        }
+        candidates
+    }
+
+    /// Chooses pairs of inputs that come together as one, each input in one pair at most.
+    fn pairs(&self, inputs: &[usize]) -> Vec<Form> {
+        let mut used = Vec::new();
+        let mut pairs = Vec::new();
+        for finding in self.accepted() {
+            let Form::Through(_, x, y) = finding.form else { continue };
+            if [x, y].iter().all(|input| inputs.contains(input) && !used.contains(input)) {
+                used.extend([x, y]);
+                pairs.push(finding.form.clone());
+            }
+        }
+        pairs
+    }
+
+    /// Returns the arguments of a function of inputs, some of them in pairs, and the input in which
+    /// it is odd.
+    fn arguments(&self, inputs: &[usize], pairs: &[Form]) -> (Vec<Argument>, Option<(usize, f64)>) {
+        let name = |input: usize| self.dataset.inputs[input].name.as_str();
+        let mut odd = None;
+        let mut arguments = Vec::new();
+        for &input in inputs {
+            let pair = pairs.iter().find_map(|form| match *form {
+                Form::Through(pairing, x, y) if x == input || y == input => Some((pairing, x, y)),
+                _ => None,
+            });
+            match pair {
+                Some((pairing, x, y)) if x == input => arguments.push(Argument {
+                    coordinate: Coordinate::Pair(pairing, x, y),
+                    text: pairing.text(name(x), name(y)),
+                    degree: 1,
+                }),
+                Some(_) => {}
+                None => arguments.push(self.argument(input, &mut odd)),
+            }
+        }
+        (arguments, odd)
+    }
+
+    fn argument(&self, input: usize, odd: &mut Option<(usize, f64)>) -> Argument {
+        let name = &self.dataset.inputs[input].name;
+        for finding in self.accepted() {
+            let (centre, square) = match finding.form {
+                Form::Even(x, centre) if x == input => (centre, false),
+                Form::Odd(x, centre) if x == input && odd.is_none() => {
+                    *odd = Some((input, centre));
+                    (centre, true)
+                }
+                _ => continue,
+            };
+            let distance = from_centre(name, centre);
+            let text = match (square, centre == 0.0) {
+                (true, true) => format!("{distance}^2"),
+                (true, false) => format!("({distance})^2"),
+                (false, _) => format!("abs({distance})"),
+            };
+            return Argument { coordinate: Coordinate::Folded(input, centre), text, degree: 2 };
+        }
+        Argument { coordinate: Coordinate::Input(input), text: name.clone(), degree: 1 }
+    }
+
+    /// Returns the largest groups of arguments that do not separate from each other.
+    fn parts(&self, arguments: &[Argument], join: Join) -> Vec<Vec<usize>> {
+        let count = arguments.len();
+        let mut together = vec![vec![true; count]; count];
+        for a in 0..count {
+            for b in a + 1..count {
+                let apart = self.separate(arguments, [a, b], join);
+                (together[a][b], together[b][a]) = (!apart, !apart);
+            }
+        }
+        let mut parts = Vec::new();
+        groups(&together, &mut Vec::new(), &(0..count).collect::<Vec<_>>(), &[], &mut parts);
+        parts
+    }
+
+    fn separate(&self, arguments: &[Argument], [a, b]: [usize; 2], join: Join) -> bool {
+        let input = |at: usize| match arguments[at].coordinate {
+            Coordinate::Input(input) | Coordinate::Folded(input, _) => Some(input),
+            _ => None,
+        };
+        if let (Some(x), Some(y)) = (input(a), input(b)) {
+            let forms = match join {
+                Join::Product => [Form::PairProduct(x, y), Form::Product(x), Form::Product(y)],
+                Join::Sum => [Form::PairSum(x, y), Form::Sum(x), Form::Sum(y)],
+            };
+            return forms.iter().any(|form| self.holds(form));
+        }
+        let but = |out: usize| (0..arguments.len()).filter(|at| *at != out).collect();
+        let coordinates = arguments.iter().map(|argument| argument.coordinate).collect();
+        let shape = Shape::joint(coordinates).split(join, vec![but(b), but(a)]);
+        self.accepts(self.tested.departure_of(&shape).verdict())
+    }
+
+    fn candidate(
+        &self,
+        arguments: &[Argument],
+        odd: Option<(usize, f64)>,
+        split: Option<(Join, Vec<Vec<usize>>)>,
+    ) -> Candidate {
+        let mut shape =
+            Shape::joint(arguments.iter().map(|argument| argument.coordinate).collect());
+        if let Some((join, parts)) = split {
+            shape = shape.split(join, parts);
+        }
+        shape.odd = odd;
+        let factor = odd.map_or(String::new(), |(input, centre)| {
+            let distance = from_centre(&self.dataset.inputs[input].name, centre);
+            if centre == 0.0 { format!("{distance}*") } else { format!("({distance})*") }
+        });
+        let same = (0..shape.parts.len()).map(|part| self.same_as(&shape, part)).collect();
+        Candidate { shape, arguments: arguments.to_vec(), factor, same }
+    }
+
+    /// Returns the first part that is the same function as a part, of another input.
+    fn same_as(&self, shape: &Shape, part: usize) -> usize {
+        // The factors of a product that is symmetric may differ by a sign.
+        let values = &self.tested.fitting.rows.output;
+        if shape.join == Join::Product && values.iter().any(|value| *value < 0.0) {
+            return part;
+        }
+        let exchanged = |x: usize, y: usize| {
+            let (Coordinate::Input(x), Coordinate::Input(y)) =
+                (shape.coordinates[x], shape.coordinates[y])
+            else {
+                return false;
+            };
+            self.holds(&Form::Symmetric(x.min(y), x.max(y)))
+        };
+        let only = |of: &[usize], other: &[usize]| -> Vec<usize> {
+            of.iter().copied().filter(|at| !other.contains(at)).collect()
+        };
+        let parts = &shape.parts;
+        let earlier = (0..part).find(|&earlier| {
+            let (own, its) =
+                (only(&parts[part], &parts[earlier]), only(&parts[earlier], &parts[part]));
+            own.len() == 1 && its.len() == 1 && exchanged(own[0], its[0])
+        });
+        earlier.unwrap_or(part)
+    }
+
+    fn departure(&self, candidate: &Candidate) -> Departure {
+        let Candidate { shape, .. } = candidate;
+        let input = |coordinate: &Coordinate| match coordinate {
+            Coordinate::Input(input) => Some(*input),
+            _ => None,
+        };
+        let plain: Option<Vec<usize>> = shape.coordinates.iter().map(input).collect();
+        let table = self.tested.table.as_ref().zip(plain).filter(|_| shape.odd.is_none());
+        let residual = table.and_then(|(table, inputs)| {
+            let part = |part: &Vec<usize>| part.iter().map(|&at| inputs[at]).collect();
+            table.of_parts(shape.join, &shape.parts.iter().map(part).collect::<Vec<_>>())
+        });
+        match residual {
+            Some(residual) => {
+                Departure::on_grid(self.tested.fitting.rows, residual, &self.tested.full)
+            }
+            None => self.tested.departure_of(shape),
+        }
+    }
+
+    fn template(&self, output: &str, candidate: &Candidate, departure: Departure) -> Template {
+        let Candidate { shape, arguments, factor, same } = candidate;
+        let taken = |name: &&&str| {
+            let columns = self.dataset.inputs.iter().chain(&self.dataset.outputs);
+            columns.into_iter().all(|column| column.name != **name)
+        };
+        let names: Vec<&str> = NAMES.iter().filter(taken).copied().collect();
+        let mut distinct: Vec<usize> = same.clone();
+        distinct.sort_unstable();
+        distinct.dedup();
+        let hole = |at: usize| {
+            let place = distinct.iter().position(|&part| part == same[at]).unwrap_or(0);
+            let name = names.get(place).map_or(format!("f{place}"), |name| (*name).to_owned());
+            let part = self.in_order(shape, at, same[at]);
+            let texts: Vec<&str> = part.iter().map(|&arg| arguments[arg].text.as_str()).collect();
+            format!("{name}({})", texts.join(", "))
+        };
+        let join = if shape.join == Join::Sum { " + " } else { "*" };
+        let holes: Vec<String> = (0..shape.parts.len()).map(hole).collect();
+        let degree = self.tested.full.degree.max(2);
+        let parts: Vec<Vec<usize>> = distinct.iter().map(|&at| shape.parts[at].clone()).collect();
+        let counts: Vec<usize> = arguments.iter().map(|argument| argument.degree).collect();
+        let inputs = self.tested.inputs.len();
+        let all: Vec<usize> = (0..inputs).collect();
+        Template {
+            formula: format!("{output} = {factor}{}", holes.join(join)),
+            verdict: departure.verdict(),
+            departure,
+            holes: distinct.len(),
+            most_arguments: shape.parts.iter().map(Vec::len).max().unwrap_or(0),
+            inputs,
+            terms: terms_up_to(degree - usize::from(shape.odd.is_some()), &parts, &counts),
+            all_terms: terms_up_to(degree, &[all], &vec![1; inputs]),
+        }
+    }
+
+    /// Returns a part's arguments; those of the same function stand where the first has them.
+    fn in_order(&self, shape: &Shape, part: usize, first: usize) -> Vec<usize> {
+        let own = &shape.parts[part];
+        let other = own.iter().copied().find(|at| !shape.parts[first].contains(at));
+        let model = shape.parts[first].iter();
+        model.filter_map(|&at| if own.contains(&at) { Some(at) } else { other }).collect()
+    }
+}
+
+fn from_centre(name: &str, centre: f64) -> String {
+    match centre {
+        0.0 => name.to_owned(),
+        centre if centre < 0.0 => format!("{name} + {}", number(-centre)),
+        centre => format!("{name} - {}", number(centre)),
+    }
+}
+
+/// Lists the largest sets of which every two are together (Bron & Kerbosch 1973).
+fn groups(
+    together: &[Vec<bool>],
+    chosen: &mut Vec<usize>,
+    open: &[usize],
+    done: &[usize],
+    found: &mut Vec<Vec<usize>>,
+) {
+    if open.is_empty() {
+        if done.is_empty() {
+            found.push(chosen.clone());
+        }
+        return;
+    }
+    let mut done = done.to_vec();
+    for (at, &next) in open.iter().enumerate() {
+        let beside = |others: &[usize]| -> Vec<usize> {
+            others.iter().copied().filter(|&other| together[next][other]).collect()
+        };
+        chosen.push(next);
+        groups(together, chosen, &beside(&open[at + 1..]), &beside(&done), found);
+        chosen.pop();
+        done.push(next);
+    }
+}
