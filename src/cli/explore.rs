@@ -98,7 +98,8 @@ fn inputs(output: &OutputReport) -> String {
         let note = match (input.constant, input.first, input.verdict) {
             (true, ..) => "  constant",
             (_, None, _) => "  not looked at",
-            (.., Some(Verdict::Holds)) => "  does not matter",
+            _ if input.needless => "  can be left out",
+            (.., Some(Verdict::Holds)) => "  can be left out if the others are there",
             _ => "",
         };
         let [alone, all] = [input.first, input.total].map(share);
@@ -117,6 +118,13 @@ fn forms(output: &OutputReport) -> String {
         for finding in told(output, verdict) {
             let _ = writeln!(text, "  {called}: {}, to {}", finding.text, bounds(finding));
         }
+    }
+    if text.is_empty() && output.templates.is_empty() {
+        let nearest = told(output, Verdict::Fails).into_iter().next();
+        text += &nearest.map_or(String::new(), |finding| {
+            let off = percent(finding.departure.estimate);
+            format!("  no form holds; nearest is {}, off by {off} of the spread\n", finding.text)
+        });
     }
     let open = told(output, Verdict::Open);
     if !open.is_empty() {

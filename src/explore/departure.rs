@@ -2,6 +2,7 @@
 
 use super::rows::Rows;
 use super::smooth::{Fit, root_mean_square};
+use super::table::Left;
 use serde::Serialize;
 
 /// The departure up to which a form holds, as far as formulas are concerned. By hand: 1e-4 of the
@@ -66,8 +67,9 @@ impl Departure {
 
     /// Judges what the best table of the form leaves on a grid. What a smooth fit leaves may be
     /// noise that nobody stated.
-    pub(super) fn on_grid(rows: &Rows, residual: f64, full: &Fit) -> Departure {
-        let variance = rows.noise * rows.noise;
+    pub(super) fn on_grid(rows: &Rows, left: Left, full: &Fit) -> Departure {
+        let residual = left.residual;
+        let variance = left.free * rows.noise * rows.noise;
         let error = variance * (2.0 / rows.len() as f64).sqrt();
         let unexplained = unexplained(rows, full.residual);
         let mean = residual * residual - variance;

@@ -30,31 +30,34 @@ pub enum Form {
 }
 
 impl Form {
-    /// Returns the form as text, `f`, `g` standing for any functions.
-    pub fn text(&self, inputs: &[String]) -> String {
-        let name = |input: &usize| inputs[*input].as_str();
+    /// Returns the form of a function of some inputs as text, `f` and `g` standing for any
+    /// functions.
+    ///
+    /// # Panics
+    /// If there are fewer names than inputs.
+    pub fn text(&self, names: &[String], inputs: &[usize]) -> String {
+        let name = |input: &usize| -> String { names[*input].clone() };
         let with = |inside: &str, but: &[usize]| {
-            let others = inputs.iter().enumerate().filter(|(i, _)| !but.contains(i));
-            let others = others.map(|(_, name)| name.as_str());
-            let inside = (!inside.is_empty()).then_some(inside);
-            inside.into_iter().chain(others).collect::<Vec<_>>().join(", ")
+            let others = inputs.iter().filter(|input| !but.contains(input)).map(name);
+            let inside = (!inside.is_empty()).then(|| inside.to_owned());
+            inside.into_iter().chain(others).collect::<Vec<String>>().join(", ")
         };
         match self {
             Form::Without(x) => format!("no {}", name(x)),
             Form::Sum(x) => format!("f({}) + g({})", name(x), with("", &[*x])),
             Form::Product(x) => format!("f({})*g({})", name(x), with("", &[*x])),
             Form::PairSum(x, y) => {
-                format!("f({}) + g({})", with(name(x), &[*x, *y]), with(name(y), &[*x, *y]))
+                format!("f({}) + g({})", with(&name(x), &[*x, *y]), with(&name(y), &[*x, *y]))
             }
             Form::PairProduct(x, y) => {
-                format!("f({})*g({})", with(name(x), &[*x, *y]), with(name(y), &[*x, *y]))
+                format!("f({})*g({})", with(&name(x), &[*x, *y]), with(&name(y), &[*x, *y]))
             }
             Form::Through(pairing, x, y) => {
-                format!("f({})", with(&pairing.text(name(x), name(y)), &[*x, *y]))
+                format!("f({})", with(&pairing.text(&name(x), &name(y)), &[*x, *y]))
             }
             Form::Symmetric(x, y) => format!("symmetric in {} and {}", name(x), name(y)),
-            Form::Even(x, centre) => format!("even in {}", about(name(x), *centre)),
-            Form::Odd(x, centre) => format!("odd in {}", about(name(x), *centre)),
+            Form::Even(x, centre) => format!("even in {}", about(&name(x), *centre)),
+            Form::Odd(x, centre) => format!("odd in {}", about(&name(x), *centre)),
             Form::Periodic(x, period) => {
                 format!("repeats along {} every {}", name(x), number(*period))
             }

@@ -6,7 +6,7 @@ use super::form::Form;
 use super::rows::Rows;
 use super::shape::{Join, Pairing, Shape};
 use super::smooth::Fit;
-use super::table::Table;
+use super::table::{Left, Table};
 use super::template::{Template, templates};
 use super::{MOST_PAIRED, MOST_TOGETHER, periodic};
 use crate::dataset::Dataset;
@@ -71,6 +71,9 @@ pub struct Influence {
     pub without: Option<Departure>,
     /// What that says.
     pub verdict: Option<Verdict>,
+    /// Whether it can be left out, together with all others of which this is said. Where inputs
+    /// depend on each other, one may be left out because the others are there.
+    pub needless: bool,
 }
 
 /// A form that was tested.
@@ -98,14 +101,21 @@ pub(super) struct Tested<'a> {
 pub(super) fn explore_output(dataset: &Dataset, output: usize) -> OutputReport {
     let name = dataset.outputs[output].name.clone();
     let Some(rows) = Rows::of(dataset, output) else { return constant(dataset, name) };
-    let inputs = together(&rows);
-    let fitting = Fitting::new(&rows, &inputs);
-    let full = fitting.fit(&Shape::of_inputs(&inputs), rows.len());
-    let table = Table::of(dataset, output, rows.spread);
-    let tested = Tested { fitting, full, table, inputs };
-    let influences = influences(dataset, &tested);
-    let holds = |input: &&usize| influences[**input].verdict != Some(Verdict::Holds);
-    let mut active: Vec<usize> = tested.inputs.iter().filter(holds).copied().collect();
+    let all = Tested::of(&rows, Table::of(dataset, output, rows.spread), together(&rows));
+    let mut influences = influences(dataset, &all);
+    let needless = all.needless(&influences, Verdict::Holds, &[]);
+    needless.iter().for_each(|&input| influences[input].needless = true);
+    let smooth =
+        SmoothFit { degree: all.full.degree, terms: all.full.terms, residual: all.full.residual };
+    // Without inputs that do not matter, polynomials of a higher degree can be fitted.
+    let tested = match needless.is_empty() {
+        true => all,
+        false => {
+            let needed = all.inputs.iter().copied().filter(|input| !needless.contains(input));
+            Tested::of(&rows, all.table, needed.collect())
+        }
+    };
+    let mut active = tested.inputs.clone();
     active.sort_by(|&a, &b| {
         let total = |input: usize| influences[input].total.unwrap_or(0.0);
         total(b).total_cmp(&total(a)).then(a.cmp(&b))
@@ -119,11 +129,6 @@ pub(super) fn explore_output(dataset: &Dataset, output: usize) -> OutputReport {
         .collect();
     forms.extend(periodic::findings(&tested, &active, &names));
     let templates = templates(dataset, &name, &tested, &influences, &forms);
-    let smooth = SmoothFit {
-        degree: tested.full.degree,
-        terms: tested.full.terms,
-        residual: tested.full.residual,
-    };
     OutputReport {
         output: name,
         spread: rows.spread,
@@ -144,6 +149,7 @@ fn constant(dataset: &Dataset, output: String) -> OutputReport {
         uncertainty: 0.0,
         without: None,
         verdict: None,
+        needless: false,
     };
     OutputReport {
         output,
@@ -191,29 +197,69 @@ fn influences(dataset: &Dataset, tested: &Tested) -> Vec<Influence> {
             uncertainty: floor * floor,
             verdict: without.map(|departure| departure.verdict()),
             without,
+            needless: false,
         }
     };
     dataset.inputs.par_iter().enumerate().map(of).collect()
 }
 
-impl Tested<'_> {
+impl<'a> Tested<'a> {
+    fn of(rows: &'a Rows, table: Option<Table>, inputs: Vec<usize>) -> Tested<'a> {
+        let fitting = Fitting::new(rows, &inputs);
+        let full = fitting.fit(&Shape::of_inputs(&inputs), rows.len());
+        Tested { fitting, full, table, inputs }
+    }
+
+    /// Returns the inputs that can be left out together, beside some others, at a level of verdict.
+    pub fn needless(&self, known: &[Influence], level: Verdict, out: &[usize]) -> Vec<usize> {
+        let departure = |input: usize| known[input].without.map_or(f64::INFINITY, |d| d.residual);
+        let accepted =
+            |verdict: Option<Verdict>| verdict == Some(Verdict::Holds) || verdict == Some(level);
+        let mut order: Vec<usize> = self.inputs.clone();
+        order.retain(|&input| accepted(known[input].verdict) && !out.contains(&input));
+        order.sort_by(|&a, &b| departure(a).total_cmp(&departure(b)).then(a.cmp(&b)));
+        let mut needless: Vec<usize> = out.to_vec();
+        for input in order {
+            let rest = self.inputs.iter().copied();
+            let rest: Vec<usize> = rest.filter(|i| *i != input && !needless.contains(i)).collect();
+            // Alone it has been tested already.
+            if needless.is_empty() || accepted(Some(self.of_inputs(&rest).verdict())) {
+                needless.push(input);
+            }
+        }
+        needless
+    }
+
+    /// Returns the departure from a function of some inputs alone.
+    fn of_inputs(&self, inputs: &[usize]) -> Departure {
+        match self.table.as_ref().and_then(|table| table.of_axes(inputs)) {
+            Some(left) => Departure::on_grid(self.fitting.rows, left, &self.full),
+            None => self.departure_of(&Shape::of_inputs(inputs)),
+        }
+    }
+
     /// Returns what the best function of one input leaves.
     fn alone(&self, input: usize) -> f64 {
         let by_table = self.table.as_ref().and_then(|table| table.of_axes(&[input]));
-        by_table.unwrap_or_else(|| {
+        by_table.map(|left| left.residual).unwrap_or_else(|| {
             self.fitting.fit(&Shape::of_inputs(&[input]), self.fitting.rows.len()).residual
         })
     }
 
     pub fn finding(&self, form: Form, names: &[String]) -> Finding {
         let departure = self.departure(&form);
-        Finding { text: form.text(names), verdict: departure.verdict(), departure, form }
+        Finding {
+            text: form.text(names, &self.inputs),
+            verdict: departure.verdict(),
+            departure,
+            form,
+        }
     }
 
     fn departure(&self, form: &Form) -> Departure {
         let rows = self.fitting.rows;
-        if let Some(residual) = self.table.as_ref().and_then(|table| self.on_grid(table, form)) {
-            return Departure::on_grid(rows, residual, &self.full);
+        if let Some(left) = self.table.as_ref().and_then(|table| self.on_grid(table, form)) {
+            return Departure::on_grid(rows, left, &self.full);
         }
         self.departure_of(&form.shape(&self.inputs))
     }
@@ -231,7 +277,7 @@ impl Tested<'_> {
     }
 
     /// Returns what a form leaves on a grid, if it can be compared value by value there.
-    fn on_grid(&self, table: &Table, form: &Form) -> Option<f64> {
+    fn on_grid(&self, table: &Table, form: &Form) -> Option<Left> {
         let others = |but: &[usize]| -> Vec<usize> {
             self.inputs.iter().copied().filter(|input| !but.contains(input)).collect()
         };

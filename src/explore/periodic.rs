@@ -59,7 +59,7 @@ fn finding(tested: &Tested, input: usize, names: &[String]) -> Option<Finding> {
     let departure = Departure::of_fit(rows, &fit, &tested.full);
     let verdict = departure.verdict();
     let form = Form::Periodic(input, (high - low) / cycles);
-    let found = Finding { text: form.text(names), form, verdict, departure };
+    let found = Finding { text: form.text(names, &tested.inputs), form, verdict, departure };
     Some(found).filter(|_| matches!(verdict, Verdict::Holds | Verdict::Nearly))
 }
 

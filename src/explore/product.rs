@@ -3,7 +3,7 @@
 use super::design::{BLOCK, Design};
 use super::linear::Cholesky;
 use super::rows::Rows;
-use super::smooth::{Fit, Sums, folds, root_mean_square};
+use super::smooth::{AS_GOOD, Fit, Sums, folds, root_mean_square};
 
 /// The most rounds in which each factor is fitted once, and the change of the sum of squares that
 /// ends them. By hand: where a product holds, the first guess is nearly it.
@@ -27,7 +27,8 @@ pub(super) fn fit(rows: &Rows, parts: &[Vec<usize>], joint: (&Design, &Fit)) -> 
         let factors: Vec<Factor> =
             parts.iter().map(|part| Factor::new(columns, part, degree, joint)).collect();
         let found = validated(rows, &known, &factors, degree);
-        let better = best.as_ref().is_none_or(|best| found.residual < 0.9 * best.residual);
+        let enough = AS_GOOD[0] * found.residual.powi(2) + AS_GOOD[1];
+        let better = best.as_ref().is_none_or(|best| best.residual.powi(2) > enough);
         let capped = factors.iter().all(|factor| factor.design.ends.len() <= degree);
         if better {
             best = Some(found);

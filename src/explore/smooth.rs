@@ -4,9 +4,9 @@ use super::design::{BLOCK, Design};
 use super::linear::{Cholesky, dot};
 use super::rows::{FOLDS, Rows};
 
-/// The squared error, relative to the least, up to which fewer terms are preferred. By hand: a
-/// tenth of the error.
-const AS_GOOD: f64 = 1.2;
+/// The squared error, relative to the least, and in squared spreads, up to which fewer terms are
+/// preferred. By hand: of noise of a tenth of the spread, this hides half a per cent.
+pub(super) const AS_GOOD: [f64; 2] = [1.002, 1e-12];
 
 /// A fit, and its errors on rows that it was not fitted to, in spreads of the output.
 #[derive(Clone, Debug)]
@@ -127,7 +127,8 @@ pub(super) fn fit(rows: &Rows, design: &Design) -> Fit {
     };
     let lefts: Vec<f64> = (0..design.ends.len()).map(left).collect();
     let least = lefts.iter().copied().fold(f64::INFINITY, f64::min);
-    let degree = lefts.iter().position(|&left| left <= AS_GOOD * least).unwrap_or(0);
+    let enough = AS_GOOD[0] * least + AS_GOOD[1] * rows.weights[..count].iter().sum::<f64>();
+    let degree = lefts.iter().position(|&left| left <= enough).unwrap_or(0);
 
     let mut errors = vec![0.0; count];
     let mut values = Vec::new();

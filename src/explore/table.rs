@@ -24,12 +24,17 @@ pub(super) struct Table {
     weights: Vec<f64>,
 }
 
-/// What a form leaves on a grid: squares, weighted, and how many rows beyond the numbers fitted.
-struct Left {
-    squares: f64,
-    rows: usize,
-    fitted: usize,
+/// What the best function of a form leaves on a grid.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Left {
+    /// The root of the weighted mean square.
+    pub residual: f64,
+    /// The share of noise's variance that is in it; the function has taken up the rest.
+    pub free: f64,
 }
+
+/// The least of that share with which a form says anything. By hand, unmeasured.
+const FREE: f64 = 0.25;
 
 impl Table {
     /// Takes a dataset's search split, if its rows are a full grid as it says.
@@ -76,23 +81,19 @@ impl Table {
         ((0..self.values.len()).map(cell).collect(), count)
     }
 
-    /// Returns the rows that count and the root mean square of what is left.
-    fn error(&self, left: &Left) -> Option<f64> {
+    /// Returns what is left by a function for which so many numbers were fitted, none if these are
+    /// nearly as many as the rows that count.
+    fn left(&self, fitted: usize, error: impl Fn(usize) -> f64) -> Option<Left> {
         let counted = self.weights.iter().filter(|weight| **weight > 0.0).count();
-        let free = counted.checked_sub(left.fitted).filter(|free| *free > 0)?;
-        let mean = left.squares / self.weights.iter().sum::<f64>();
-        Some((mean * left.rows as f64 / free as f64).sqrt())
-    }
-
-    fn left(&self, fitted: usize, error: impl Fn(usize) -> f64) -> Option<f64> {
+        let free = 1.0 - fitted as f64 / counted as f64;
         let square = |row: usize| self.weights[row] * error(row).powi(2);
-        let squares = (0..self.values.len()).map(square).sum();
-        let rows = self.weights.iter().filter(|weight| **weight > 0.0).count();
-        self.error(&Left { squares, rows, fitted })
+        let squares: f64 = (0..self.values.len()).map(square).sum();
+        let residual = (squares / self.weights.iter().sum::<f64>()).sqrt();
+        Some(Left { residual, free }).filter(|left| left.free >= FREE)
     }
 
-    /// Returns the residual of the best function of some axes alone.
-    pub fn of_axes(&self, axes: &[usize]) -> Option<f64> {
+    /// Returns what is left by the best function of some axes alone.
+    pub fn of_axes(&self, axes: &[usize]) -> Option<Left> {
         let (cells, count) = self.cells(axes);
         let means = self.means(&cells, count, |row| self.values[row]);
         self.left(count, |row| self.values[row] - means[cells[row]])
@@ -107,9 +108,9 @@ impl Table {
         sums.iter().map(|[sum, weight]| if *weight > 0.0 { sum / weight } else { 0.0 }).collect()
     }
 
-    /// Returns the residual of the best sum or product of functions, each of some axes. Axes that
+    /// Returns what is left by the best sum or product of functions, each of some axes. Axes that
     /// are in every part, `shared`, cost their own share of numbers.
-    pub fn of_parts(&self, join: Join, parts: &[Vec<usize>]) -> Option<f64> {
+    pub fn of_parts(&self, join: Join, parts: &[Vec<usize>]) -> Option<Left> {
         let cells: Vec<(Vec<usize>, usize)> = parts.iter().map(|part| self.cells(part)).collect();
         let shared: Vec<usize> = parts.first()?.clone();
         let shared = shared.into_iter().filter(|axis| parts.iter().all(|part| part.contains(axis)));
@@ -203,9 +204,9 @@ impl Table {
         }
     }
 
-    /// Returns the residual of the best function in which two axes may be exchanged; none if their
+    /// Returns what is left by the best function in which two axes may be exchanged; none if their
     /// points differ.
-    pub fn symmetric(&self, a: usize, b: usize) -> Option<f64> {
+    pub fn symmetric(&self, a: usize, b: usize) -> Option<Left> {
         if self.axes[a] != self.axes[b] {
             return None;
         }
@@ -217,9 +218,9 @@ impl Table {
         self.paired(exchanged, 1.0)
     }
 
-    /// Returns the residual of the best function that is even (`sign` 1) or odd (`sign` -1) about
+    /// Returns what is left by the best function that is even (`sign` 1) or odd (`sign` -1) about
     /// a centre of an axis; none if its points are not each other's mirror images.
-    pub fn mirrored(&self, axis: usize, centre: f64, sign: f64) -> Option<f64> {
+    pub fn mirrored(&self, axis: usize, centre: f64, sign: f64) -> Option<Left> {
         let places = &self.axes[axis];
         let extent = (places.last()? - places.first()?).abs();
         let images = places.iter().zip(places.iter().rev());
@@ -236,7 +237,7 @@ impl Table {
     }
 
     /// Returns what a function leaves that has the same value in each two rows, but for the sign.
-    fn paired(&self, other: impl Fn(usize) -> usize, sign: f64) -> Option<f64> {
+    fn paired(&self, other: impl Fn(usize) -> usize, sign: f64) -> Option<Left> {
         let rows = self.values.len();
         let alone = (0..rows).filter(|&row| other(row) == row).count();
         self.left((rows - alone) / 2 + alone, |row| {

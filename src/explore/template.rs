@@ -61,11 +61,12 @@ pub(super) fn templates(
     forms: &[Finding],
 ) -> Vec<Template> {
     let mut best: Vec<Template> = Vec::new();
+    let all = influences.iter().filter(|influence| influence.first.is_some()).count();
     for level in [Verdict::Holds, Verdict::Nearly] {
-        let suggested = Suggested { dataset, tested, forms, level };
-        let inputs: Vec<usize> = (tested.inputs.iter().copied())
-            .filter(|&input| !influences[input].verdict.is_some_and(|v| suggested.accepts(v)))
-            .collect();
+        let suggested = Suggested { dataset, tested, forms, level, inputs: all };
+        let needless = tested.needless(influences, level, &[]);
+        let needed = tested.inputs.iter().copied().filter(|input| !needless.contains(input));
+        let inputs: Vec<usize> = needed.collect();
         let fitted = suggested.candidates(&inputs).into_iter().map(|candidate| {
             let departure = suggested.departure(&candidate);
             suggested.template(output, &candidate, departure)
@@ -89,6 +90,8 @@ struct Suggested<'a> {
     tested: &'a Tested<'a>,
     forms: &'a [Finding],
     level: Verdict,
+    /// The number of inputs that a search without a template has.
+    inputs: usize,
 }
 
 impl Suggested<'_> {
@@ -120,7 +123,7 @@ impl Suggested<'_> {
         let mut candidates = Vec::new();
         for with in [&pairs[..], &[]] {
             let (arguments, odd) = self.arguments(inputs, with);
-            let changed = with.len() + (self.tested.inputs.len() - inputs.len());
+            let changed = with.len() + (self.inputs - inputs.len());
             let folded = arguments.iter().any(|argument| argument.degree > 1);
             if changed > 0 || folded {
                 candidates.push(self.candidate(&arguments, odd, None));
@@ -287,14 +290,12 @@ impl Suggested<'_> {
         };
         let plain: Option<Vec<usize>> = shape.coordinates.iter().map(input).collect();
         let table = self.tested.table.as_ref().zip(plain).filter(|_| shape.odd.is_none());
-        let residual = table.and_then(|(table, inputs)| {
+        let left = table.and_then(|(table, inputs)| {
             let part = |part: &Vec<usize>| part.iter().map(|&at| inputs[at]).collect();
             table.of_parts(shape.join, &shape.parts.iter().map(part).collect::<Vec<_>>())
         });
-        match residual {
-            Some(residual) => {
-                Departure::on_grid(self.tested.fitting.rows, residual, &self.tested.full)
-            }
+        match left {
+            Some(left) => Departure::on_grid(self.tested.fitting.rows, left, &self.tested.full),
             None => self.tested.departure_of(shape),
         }
     }
@@ -321,7 +322,7 @@ impl Suggested<'_> {
         let degree = self.tested.full.degree.max(2);
         let parts: Vec<Vec<usize>> = distinct.iter().map(|&at| shape.parts[at].clone()).collect();
         let counts: Vec<usize> = arguments.iter().map(|argument| argument.degree).collect();
-        let inputs = self.tested.inputs.len();
+        let inputs = self.inputs;
         let all: Vec<usize> = (0..inputs).collect();
         Template {
             formula: format!("{output} = {factor}{}", holes.join(join)),
