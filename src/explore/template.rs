@@ -206,11 +206,9 @@ impl Suggested<'_> {
     fn parts(&self, arguments: &[Argument], join: Join) -> Vec<Vec<usize>> {
         let count = arguments.len();
         let mut together = vec![vec![true; count]; count];
-        for a in 0..count {
-            for b in a + 1..count {
-                let apart = self.separate(arguments, [a, b], join);
-                (together[a][b], together[b][a]) = (!apart, !apart);
-            }
+        let pairs = (0..count).flat_map(|a| (a + 1..count).map(move |b| [a, b]));
+        for [a, b] in pairs.filter(|pair| self.separate(arguments, *pair, join)) {
+            (together[a][b], together[b][a]) = (false, false);
         }
         let mut parts = Vec::new();
         groups(&together, &mut Vec::new(), &(0..count).collect::<Vec<_>>(), &[], &mut parts);
