@@ -82,8 +82,8 @@ impl Design {
     }
 }
 
-/// Returns how many terms a fit of parts has up to a total degree, where each coordinate's own degree
-/// counts as often as it says.
+/// Returns how many terms a fit of parts has up to a total degree, where each coordinate's own
+/// degree counts as often as it says.
 pub(super) fn terms_up_to(degree: usize, parts: &[Vec<usize>], counts: &[usize]) -> usize {
     let total = |term: &Vec<u8>| -> usize {
         term.iter().zip(counts).map(|(own, count)| usize::from(*own) * count).sum()

@@ -26,8 +26,8 @@
 //! 2020, "AI Feynman", test a fitted network for these separations; residuals of rivals that are
 //! fitted need no derivatives, and say how much a form would cost.) On full grids sums, products,
 //! symmetry and parity are compared value by value instead, however rough the function; there the
-//! best function of a form is a table. Either way the [`Departure`] has an estimate, an interval, and
-//! the residual that a formula of the form can reach, from which the [`Verdict`] follows.
+//! best function of a form is a table. Either way the [`Departure`] has an estimate, an interval,
+//! and the residual that a formula of the form can reach, from which the [`Verdict`] follows.
 //!
 //! A **template** ([`Template`]) is a formula with holes, for `lgp search`: the form, or the few
 //! together, with the fewest inputs in a hole and the fewest terms, which is then fitted itself.
@@ -47,14 +47,17 @@
 //!
 //! # Limits
 //! At most a fixed number of rows is fitted to, always the same ones ([`Exploration::fitted`]). Of
-//! more than [`MOST_TOGETHER`] inputs those that explain most by themselves are looked at, and pairs
-//! are looked for among the [`MOST_PAIRED`] with the largest totals. Periods are looked for only
+//! more than [`MOST_TOGETHER`] inputs those that explain most by themselves are looked at, and
+//! pairs are looked for among the [`MOST_PAIRED`] with the largest totals. Periods are looked for only
 //! where the rows span one and a half of them.
 
+mod candidate;
+mod candidates;
 mod departure;
 mod design;
 mod fitting;
 mod form;
+mod groups;
 mod linear;
 mod output;
 mod periodic;
@@ -64,6 +67,7 @@ mod shape;
 mod smooth;
 mod table;
 mod template;
+mod tested;
 mod units;
 
 pub use departure::{Departure, Verdict};

@@ -1,28 +1,18 @@
 //! One output: its smooth fit, the shares of its inputs, and the forms that it may have.
 
+use super::candidates::candidates;
 use super::departure::{Departure, Verdict};
 use super::fitting::Fitting;
 use super::form::Form;
 use super::rows::Rows;
-use super::shape::{Join, Pairing, Shape};
-use super::smooth::Fit;
-use super::table::{Left, Table};
+use super::shape::Shape;
+use super::table::Table;
 use super::template::{Template, templates};
+use super::tested::{FIRST_ROWS, Tested};
 use super::{MOST_PAIRED, MOST_TOGETHER, periodic};
 use crate::dataset::Dataset;
 use rayon::prelude::*;
 use serde::Serialize;
-
-/// The rows with which forms that fail by far are told. By hand: four for each term.
-const FIRST_ROWS: usize = 1024;
-/// The residual that is by far, in spreads, and relative to that of the smooth fit. By hand.
-const BY_FAR: [f64; 2] = [0.3, 5.0];
-
-/// How much of an input's range has to lie on either side of a centre. By hand, unmeasured.
-const BOTH_SIDES: f64 = 0.2;
-
-/// The ranges of two inputs that are exchanged may differ by so much. By hand, unmeasured.
-const ALIKE: f64 = 1.25;
 
 /// What the data say of one output.
 #[derive(Clone, Debug, PartialEq, Serialize)]
@@ -87,15 +77,6 @@ pub struct Finding {
     pub verdict: Verdict,
     /// By how much they depart from it.
     pub departure: Departure,
-}
-
-/// What tests of forms need.
-pub(super) struct Tested<'a> {
-    pub fitting: Fitting<'a>,
-    pub full: Fit,
-    pub table: Option<Table>,
-    /// The inputs that the full fit is of.
-    pub inputs: Vec<usize>,
 }
 
 pub(super) fn explore_output(dataset: &Dataset, output: usize) -> OutputReport {
@@ -201,144 +182,4 @@ fn influences(dataset: &Dataset, tested: &Tested) -> Vec<Influence> {
         }
     };
     dataset.inputs.par_iter().enumerate().map(of).collect()
-}
-
-impl<'a> Tested<'a> {
-    fn of(rows: &'a Rows, table: Option<Table>, inputs: Vec<usize>) -> Tested<'a> {
-        let fitting = Fitting::new(rows, &inputs);
-        let full = fitting.fit(&Shape::of_inputs(&inputs), rows.len());
-        Tested { fitting, full, table, inputs }
-    }
-
-    /// Returns the inputs that can be left out together, beside some others, at a level of verdict.
-    pub fn needless(&self, known: &[Influence], level: Verdict, out: &[usize]) -> Vec<usize> {
-        let departure = |input: usize| known[input].without.map_or(f64::INFINITY, |d| d.residual);
-        let accepted =
-            |verdict: Option<Verdict>| verdict == Some(Verdict::Holds) || verdict == Some(level);
-        let mut order: Vec<usize> = self.inputs.clone();
-        order.retain(|&input| accepted(known[input].verdict) && !out.contains(&input));
-        order.sort_by(|&a, &b| departure(a).total_cmp(&departure(b)).then(a.cmp(&b)));
-        let mut needless: Vec<usize> = out.to_vec();
-        for input in order {
-            let rest = self.inputs.iter().copied();
-            let rest: Vec<usize> = rest.filter(|i| *i != input && !needless.contains(i)).collect();
-            // Alone it has been tested already.
-            if needless.is_empty() || accepted(Some(self.of_inputs(&rest).verdict())) {
-                needless.push(input);
-            }
-        }
-        needless
-    }
-
-    /// Returns the departure from a function of some inputs alone.
-    fn of_inputs(&self, inputs: &[usize]) -> Departure {
-        match self.table.as_ref().and_then(|table| table.of_axes(inputs)) {
-            Some(left) => Departure::on_grid(self.fitting.rows, left, &self.full),
-            None => self.departure_of(&Shape::of_inputs(inputs)),
-        }
-    }
-
-    /// Returns what the best function of one input leaves.
-    fn alone(&self, input: usize) -> f64 {
-        let by_table = self.table.as_ref().and_then(|table| table.of_axes(&[input]));
-        by_table.map(|left| left.residual).unwrap_or_else(|| {
-            self.fitting.fit(&Shape::of_inputs(&[input]), self.fitting.rows.len()).residual
-        })
-    }
-
-    pub fn finding(&self, form: Form, names: &[String]) -> Finding {
-        let departure = self.departure(&form);
-        Finding {
-            text: form.text(names, &self.inputs),
-            verdict: departure.verdict(),
-            departure,
-            form,
-        }
-    }
-
-    fn departure(&self, form: &Form) -> Departure {
-        let rows = self.fitting.rows;
-        if let Some(left) = self.table.as_ref().and_then(|table| self.on_grid(table, form)) {
-            return Departure::on_grid(rows, left, &self.full);
-        }
-        let shape = form.shape(&self.inputs);
-        match form {
-            // Shares of the variance are wanted of all rows.
-            Form::Without(_) => {
-                Departure::of_fit(rows, &self.fitting.fit(&shape, rows.len()), &self.full)
-            }
-            _ => self.departure_of(&shape),
-        }
-    }
-
-    /// Fits a shape: to few rows, then, unless these tell that it fails by far, to all.
-    pub fn departure_of(&self, shape: &Shape) -> Departure {
-        let rows = self.fitting.rows;
-        if rows.len() > 2 * FIRST_ROWS {
-            let first = self.fitting.fit(shape, FIRST_ROWS);
-            if first.residual > BY_FAR[0].max(BY_FAR[1] * self.full.residual) {
-                return Departure::of_fit(rows, &first, &self.full);
-            }
-        }
-        Departure::of_fit(rows, &self.fitting.fit(shape, rows.len()), &self.full)
-    }
-
-    /// Returns what a form leaves on a grid, if it can be compared value by value there.
-    fn on_grid(&self, table: &Table, form: &Form) -> Option<Left> {
-        let others = |but: &[usize]| -> Vec<usize> {
-            self.inputs.iter().copied().filter(|input| !but.contains(input)).collect()
-        };
-        match *form {
-            Form::Without(x) => table.of_axes(&others(&[x])),
-            Form::Sum(x) => table.of_parts(Join::Sum, &[vec![x], others(&[x])]),
-            Form::Product(x) => table.of_parts(Join::Product, &[vec![x], others(&[x])]),
-            Form::PairSum(x, y) => table.of_parts(Join::Sum, &[others(&[y]), others(&[x])]),
-            Form::PairProduct(x, y) => table.of_parts(Join::Product, &[others(&[y]), others(&[x])]),
-            Form::Symmetric(x, y) => table.symmetric(x, y),
-            Form::Even(x, centre) => table.mirrored(x, centre, 1.0),
-            Form::Odd(x, centre) => table.mirrored(x, centre, -1.0),
-            Form::Through(..) | Form::Periodic(..) => None,
-        }
-    }
-}
-
-/// Lists the forms that make sense for some inputs.
-fn candidates(dataset: &Dataset, rows: &Rows, inputs: &[usize]) -> Vec<Form> {
-    let mut forms = Vec::new();
-    for (at, &x) in inputs.iter().enumerate() {
-        for centre in centres(dataset, rows, x) {
-            forms.extend([Form::Even(x, centre), Form::Odd(x, centre)]);
-        }
-        // Of two inputs, one against the other says it all.
-        if inputs.len() > 2 || (inputs.len() == 2 && at == 0) {
-            forms.extend([Form::Product(x), Form::Sum(x)]);
-        }
-        for &y in &inputs[at + 1..] {
-            if inputs.len() > 2 {
-                forms.extend([Form::PairProduct(x, y), Form::PairSum(x, y)]);
-            }
-            if may_be_exchanged(rows, x, y) {
-                forms.push(Form::Symmetric(x, y));
-            }
-            forms.extend(Pairing::ALL.map(|pairing| Form::Through(pairing, x, y)));
-        }
-    }
-    forms
-}
-
-/// Returns zero and the middle of an input's domain, where rows lie on both sides.
-fn centres(dataset: &Dataset, rows: &Rows, input: usize) -> Vec<f64> {
-    let [low, high] = rows.range(input);
-    let [first, last] = dataset.inputs[input].domain;
-    let middle = (first + last) / 2.0;
-    let nearly_zero = middle.abs() < 1e-6 * (last - first);
-    let mut centres = if nearly_zero { vec![0.0] } else { vec![0.0, middle] };
-    let side = BOTH_SIDES * (high - low);
-    centres.retain(|centre| low + side <= *centre && *centre <= high - side);
-    centres
-}
-
-fn may_be_exchanged(rows: &Rows, x: usize, y: usize) -> bool {
-    let ([a, b], [c, d]) = (rows.range(x), rows.range(y));
-    b.max(d) - a.min(c) <= ALIKE * (b.min(d) - a.max(c))
 }

@@ -2,15 +2,16 @@
 
 use super::departure::{Departure, Verdict};
 use super::form::Form;
-use super::output::{Finding, Tested};
+use super::output::Finding;
 use super::shape::{Coordinate, Shape};
+use super::tested::Tested;
 use rayon::prelude::*;
 
 /// The cycles within the rows' range that are tried: one has to be seen again to count, and of more
 /// a plot says so. By hand.
 const CYCLES: std::ops::RangeInclusive<f64> = 1.5..=8.0;
-/// The step between those that are tried first. By hand: cycles that differ by half a step run apart
-/// by a twentieth from one end of the range to the other.
+/// The step between those that are tried first. By hand: cycles that differ by half a step run
+/// apart by a twentieth from one end of the range to the other.
 const STEP: f64 = 0.1;
 /// The points of each cycle at least. By hand: fewer say nothing of its shape.
 const POINTS: f64 = 4.0;

@@ -16,8 +16,8 @@ const DEGREES: [usize; 6] = [2, 3, 5, 8, 12, 18];
 /// Turns of power iteration for the first guess. By hand, unmeasured.
 const TURNS: usize = 30;
 
-/// Fits a product of functions, each of some of the coordinates, to the first rows. `joint` is a fit
-/// of all coordinates together, from whose coefficients the first guess comes; what its design
+/// Fits a product of functions, each of some of the coordinates, to the first rows. `joint` is a
+/// fit of all coordinates together, from whose coefficients the first guess comes; what its design
 /// multiplies all terms by stands before the product.
 pub(super) fn fit(rows: &Rows, parts: &[Vec<usize>], joint: (&Design, &Fit)) -> Fit {
     let mut best: Option<Fit> = None;

@@ -1,10 +1,12 @@
 //! Templates that the forms found suggest, and what they would gain.
 
+use super::candidate::{Argument, Candidate, from_centre};
 use super::departure::{Departure, Verdict};
-use super::design::terms_up_to;
-use super::form::{Form, number};
-use super::output::{Finding, Influence, Tested};
+use super::form::Form;
+use super::groups::groups;
+use super::output::{Finding, Influence};
 use super::shape::{Coordinate, Join, Shape};
+use super::tested::Tested;
 use crate::dataset::Dataset;
 use serde::Serialize;
 
@@ -29,30 +31,8 @@ pub struct Template {
     pub all_terms: usize,
 }
 
-/// Names of holes, as far as no column has them.
-const NAMES: [&str; 12] = ["f", "g", "h", "p", "q", "r", "s", "t", "u", "v", "w", "z"];
-
-/// An argument of holes.
-#[derive(Clone)]
-struct Argument {
-    coordinate: Coordinate,
-    text: String,
-    /// How often its degree counts: twice for a square.
-    degree: usize,
-}
-
-/// A formula with holes that is to be fitted.
-struct Candidate {
-    shape: Shape,
-    arguments: Vec<Argument>,
-    /// What stands before it: the input in which it is odd.
-    factor: String,
-    /// For each part, the part that is the same function.
-    same: Vec<usize>,
-}
-
-/// Fits the templates that forms suggest; returns the best that holds, and one that is smaller still
-/// but holds only nearly.
+/// Fits the templates that forms suggest; returns the best that holds, and one that is smaller
+/// still but holds only nearly.
 pub(super) fn templates(
     dataset: &Dataset,
     output: &str,
@@ -69,7 +49,7 @@ pub(super) fn templates(
         let inputs: Vec<usize> = needed.collect();
         let fitted = suggested.candidates(&inputs).into_iter().map(|candidate| {
             let departure = suggested.departure(&candidate);
-            suggested.template(output, &candidate, departure)
+            candidate.template(dataset, output, departure, [tested.full.degree, all])
         });
         let mut fitted: Vec<Template> =
             fitted.filter(|template| suggested.accepts(template.verdict)).collect();
@@ -210,9 +190,7 @@ impl Suggested<'_> {
         for [a, b] in pairs.filter(|pair| self.separate(arguments, *pair, join)) {
             (together[a][b], together[b][a]) = (false, false);
         }
-        let mut parts = Vec::new();
-        groups(&together, &mut Vec::new(), &(0..count).collect::<Vec<_>>(), &[], &mut parts);
-        parts
+        groups(&together)
     }
 
     fn separate(&self, arguments: &[Argument], [a, b]: [usize; 2], join: Join) -> bool {
@@ -296,83 +274,5 @@ impl Suggested<'_> {
             Some(left) => Departure::on_grid(self.tested.fitting.rows, left, &self.tested.full),
             None => self.tested.departure_of(shape),
         }
-    }
-
-    fn template(&self, output: &str, candidate: &Candidate, departure: Departure) -> Template {
-        let Candidate { shape, arguments, factor, same } = candidate;
-        let taken = |name: &&&str| {
-            let columns = self.dataset.inputs.iter().chain(&self.dataset.outputs);
-            columns.into_iter().all(|column| column.name != **name)
-        };
-        let names: Vec<&str> = NAMES.iter().filter(taken).copied().collect();
-        let mut distinct: Vec<usize> = same.clone();
-        distinct.sort_unstable();
-        distinct.dedup();
-        let hole = |at: usize| {
-            let place = distinct.iter().position(|&part| part == same[at]).unwrap_or(0);
-            let name = names.get(place).map_or(format!("f{place}"), |name| (*name).to_owned());
-            let part = self.in_order(shape, at, same[at]);
-            let texts: Vec<&str> = part.iter().map(|&arg| arguments[arg].text.as_str()).collect();
-            format!("{name}({})", texts.join(", "))
-        };
-        let join = if shape.join == Join::Sum { " + " } else { "*" };
-        let holes: Vec<String> = (0..shape.parts.len()).map(hole).collect();
-        let degree = self.tested.full.degree.max(2);
-        let parts: Vec<Vec<usize>> = distinct.iter().map(|&at| shape.parts[at].clone()).collect();
-        let counts: Vec<usize> = arguments.iter().map(|argument| argument.degree).collect();
-        let inputs = self.inputs;
-        let all: Vec<usize> = (0..inputs).collect();
-        Template {
-            formula: format!("{output} = {factor}{}", holes.join(join)),
-            verdict: departure.verdict(),
-            departure,
-            holes: distinct.len(),
-            most_arguments: shape.parts.iter().map(Vec::len).max().unwrap_or(0),
-            inputs,
-            terms: terms_up_to(degree - usize::from(shape.odd.is_some()), &parts, &counts),
-            all_terms: terms_up_to(degree, &[all], &vec![1; inputs]),
-        }
-    }
-
-    /// Returns a part's arguments; those of the same function stand where the first has them.
-    fn in_order(&self, shape: &Shape, part: usize, first: usize) -> Vec<usize> {
-        let own = &shape.parts[part];
-        let other = own.iter().copied().find(|at| !shape.parts[first].contains(at));
-        let model = shape.parts[first].iter();
-        model.filter_map(|&at| if own.contains(&at) { Some(at) } else { other }).collect()
-    }
-}
-
-fn from_centre(name: &str, centre: f64) -> String {
-    match centre {
-        0.0 => name.to_owned(),
-        centre if centre < 0.0 => format!("{name} + {}", number(-centre)),
-        centre => format!("{name} - {}", number(centre)),
-    }
-}
-
-/// Lists the largest sets of which every two are together (Bron & Kerbosch 1973).
-fn groups(
-    together: &[Vec<bool>],
-    chosen: &mut Vec<usize>,
-    open: &[usize],
-    done: &[usize],
-    found: &mut Vec<Vec<usize>>,
-) {
-    if open.is_empty() {
-        if done.is_empty() {
-            found.push(chosen.clone());
-        }
-        return;
-    }
-    let mut done = done.to_vec();
-    for (at, &next) in open.iter().enumerate() {
-        let beside = |others: &[usize]| -> Vec<usize> {
-            others.iter().copied().filter(|&other| together[next][other]).collect()
-        };
-        chosen.push(next);
-        groups(together, chosen, &beside(&open[at + 1..]), &beside(&done), found);
-        chosen.pop();
-        done.push(next);
     }
 }
