@@ -11,6 +11,12 @@ use std::path::Path;
 /// The most forms of which it is told that nothing can be told. By hand: a line.
 const MOST_OPEN: usize = 4;
 
+/// The departure of the nearest form that is told where none holds, in spreads. By hand.
+const WORTH_TELLING: f64 = 0.3;
+
+/// The departure that rounding to `f32` explains. By hand.
+const ROUNDING: f64 = 1e-6;
+
 /// An exploration, and the commands that make use of it.
 #[derive(Serialize)]
 pub struct Explored {
@@ -116,15 +122,18 @@ fn forms(output: &OutputReport) -> String {
     let mut text = String::new();
     for (verdict, called) in [(Verdict::Holds, "holds"), (Verdict::Nearly, "nearly holds")] {
         for finding in told(output, verdict) {
-            let _ = writeln!(text, "  {called}: {}, to {}", finding.text, bounds(finding));
+            let _ = writeln!(text, "  {called}: {}, {}", finding.text, bounds(finding));
         }
     }
     if text.is_empty() && output.templates.is_empty() {
+        text += "  no form holds";
         let nearest = told(output, Verdict::Fails).into_iter().next();
-        text += &nearest.map_or(String::new(), |finding| {
+        if let Some(finding) = nearest.filter(|finding| finding.departure.estimate < WORTH_TELLING)
+        {
             let off = percent(finding.departure.estimate);
-            format!("  no form holds; nearest is {}, off by {off} of the spread\n", finding.text)
-        });
+            let _ = write!(text, "; nearest is {}, off by {off} of the spread", finding.text);
+        }
+        text.push('\n');
     }
     let open = told(output, Verdict::Open);
     if !open.is_empty() {
@@ -168,12 +177,15 @@ fn told(output: &OutputReport, verdict: Verdict) -> Vec<&Finding> {
 /// Words for a departure: its estimate, with its interval where that is wide.
 fn bounds(finding: &Finding) -> String {
     let departure = &finding.departure;
+    if departure.high <= ROUNDING {
+        return "exactly".to_owned();
+    }
     if departure.high <= 1.2 * departure.low.max(1e-5) {
-        return format!("{} of the spread", percent(departure.estimate));
+        return format!("to {} of the spread", percent(departure.estimate));
     }
     match departure.low {
-        0.0 => format!("within {} of the spread", percent(departure.high)),
-        low => format!("{} to {} of the spread", percent(low), percent(departure.high)),
+        0.0 => format!("to within {} of the spread", percent(departure.high)),
+        low => format!("to {} … {} of the spread", percent(low), percent(departure.high)),
     }
 }
 

@@ -27,6 +27,8 @@ pub(super) struct Candidate {
     pub factor: String,
     /// For each part, the part that is the same function.
     pub same: Vec<usize>,
+    /// What the data say of it, where that is known already.
+    pub known: Option<Departure>,
 }
 
 impl Candidate {
@@ -39,7 +41,7 @@ impl Candidate {
         departure: Departure,
         [degree, inputs]: [usize; 2],
     ) -> Template {
-        let Candidate { shape, arguments, factor, same } = self;
+        let Candidate { shape, arguments, factor, same, .. } = self;
         let taken = |name: &&&str| {
             let columns = dataset.inputs.iter().chain(&dataset.outputs);
             columns.into_iter().all(|column| column.name != **name)

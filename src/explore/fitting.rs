@@ -94,7 +94,8 @@ impl<'a> Fitting<'a> {
 
     /// Fits a shape to the first rows.
     pub fn fit(&self, shape: &Shape, count: usize) -> Fit {
-        let count = count.min(self.rows.len());
+        let most = if shape.join == Join::Product { product::MOST_ROWS } else { usize::MAX };
+        let count = count.min(self.rows.len()).min(most);
         let small = count.min(SCALE_ROWS);
         let mut scales = self.scales_of(shape);
         for (at, coordinate) in shape.coordinates.iter().enumerate() {

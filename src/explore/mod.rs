@@ -65,6 +65,7 @@ mod product;
 mod rows;
 mod shape;
 mod smooth;
+mod suggested;
 mod table;
 mod template;
 mod tested;

@@ -7,11 +7,16 @@ use super::smooth::{AS_GOOD, Fit, Sums, folds, root_mean_square};
 
 /// The most rounds in which each factor is fitted once, and the change of the sum of squares that
 /// ends them. By hand: where a product holds, the first guess is nearly it.
-const ROUNDS: usize = 12;
+const ROUNDS: usize = 8;
 const SETTLED: f64 = 1e-3;
 
 /// The degrees of factors that are tried. By hand: each is half as good again as the one before.
 const DEGREES: [usize; 6] = [2, 3, 5, 8, 12, 18];
+
+/// The most terms of a factor, and the most rows that products are fitted to. By hand, for tenths of
+/// a second: a fit of all factors takes as many fits of one as there are rounds and folds.
+const MOST_TERMS: usize = 90;
+pub(super) const MOST_ROWS: usize = 4096;
 
 /// Turns of power iteration for the first guess. By hand, unmeasured.
 const TURNS: usize = 30;
@@ -29,11 +34,12 @@ pub(super) fn fit(rows: &Rows, parts: &[Vec<usize>], joint: (&Design, &Fit)) -> 
         let found = validated(rows, &known, &factors, degree);
         let enough = AS_GOOD[0] * found.residual.powi(2) + AS_GOOD[1];
         let better = best.as_ref().is_none_or(|best| best.residual.powi(2) > enough);
+        let worse = !better && best.is_some();
         let capped = factors.iter().all(|factor| factor.design.ends.len() <= degree);
         if better {
             best = Some(found);
         }
-        if capped {
+        if capped || worse {
             break;
         }
     }
@@ -49,7 +55,8 @@ struct Factor {
 impl Factor {
     fn new(columns: &[Vec<f64>], part: &[usize], degree: usize, joint: (&Design, &Fit)) -> Factor {
         let mut design = Design::new(columns[0].len(), columns.to_vec(), &[part.to_vec()], None);
-        design.truncate(degree);
+        let most = design.ends.iter().rposition(|&end| end <= MOST_TERMS).unwrap_or(0);
+        design.truncate(degree.min(most));
         let coefficients = leading(&design, part, joint);
         let guess = design.evaluated(&coefficients);
         Factor { design, guess }
