@@ -57,6 +57,12 @@ impl Design {
         self.terms.truncate(self.ends.last().copied().unwrap_or(0));
     }
 
+    /// Drops whole degrees until there are no more terms than a number, but for the constant one.
+    pub fn truncate_to(&mut self, terms: usize) {
+        let degree = self.ends.iter().rposition(|&end| end <= terms).unwrap_or(0);
+        self.truncate(degree);
+    }
+
     /// Computes the terms of some rows, at most a block: of each term a block of values.
     pub fn fill(&self, rows: &[usize], values: &mut Vec<f64>) {
         values.clear();

@@ -6,8 +6,10 @@ use super::rows::{Rows, range};
 use super::shape::{Coordinate, Join, Scale, Shape};
 use super::smooth::{self, Fit};
 
-/// The rows with which scales are chosen. By hand: four for each of more terms than are ever best.
+/// The rows and the terms with which scales are chosen. By hand: most fits are for these, and take
+/// some milliseconds so.
 const SCALE_ROWS: usize = 1024;
+const SCALE_TERMS: usize = 92;
 
 /// What another scale has to leave, relative to the plain one. By hand, unmeasured.
 const WORTH: f64 = 0.7;
@@ -49,7 +51,9 @@ impl<'a> Fitting<'a> {
         for scale in Scale::suitable(&all) {
             let mut tried = scales.to_vec();
             tried[at] = scale;
-            let left = smooth::fit(self.rows, &self.design(&sum, &tried, count)).residual;
+            let mut design = self.design(&sum, &tried, count);
+            design.truncate_to(SCALE_TERMS);
+            let left = smooth::fit(self.rows, &design).residual;
             if least.is_infinite() || left < WORTH * least {
                 (best, least) = (scale, left);
             }

@@ -10,7 +10,7 @@ use super::smooth::{AS_GOOD, Fit, Sums, folds, root_mean_square};
 const ROUNDS: usize = 8;
 const SETTLED: f64 = 1e-3;
 
-/// The degrees of factors that are tried. By hand: each is half as good again as the one before.
+/// The degrees of factors that are tried, on one fold. By hand: each is half as good again as the one before.
 const DEGREES: [usize; 6] = [2, 3, 5, 8, 12, 18];
 
 /// The most terms of a factor, and the most rows that products are fitted to. By hand, for tenths of
@@ -25,25 +25,28 @@ const TURNS: usize = 30;
 /// fit of all coordinates together, from whose coefficients the first guess comes; what its design
 /// multiplies all terms by stands before the product.
 pub(super) fn fit(rows: &Rows, parts: &[Vec<usize>], joint: (&Design, &Fit)) -> Fit {
-    let mut best: Option<Fit> = None;
     let Design { columns, factor, .. } = joint.0;
     let known = factor.clone().unwrap_or_else(|| vec![1.0; joint.0.rows]);
+    let first = &folds(known.len())[0];
+    let mut best: Option<(f64, usize, Vec<Factor>)> = None;
     for degree in DEGREES {
-        let factors: Vec<Factor> =
+        let mut factors: Vec<Factor> =
             parts.iter().map(|part| Factor::new(columns, part, degree, joint)).collect();
-        let found = validated(rows, &known, &factors, degree);
-        let enough = AS_GOOD[0] * found.residual.powi(2) + AS_GOOD[1];
-        let better = best.as_ref().is_none_or(|best| best.residual.powi(2) > enough);
-        let worse = !better && best.is_some();
-        let capped = factors.iter().all(|factor| factor.design.ends.len() <= degree);
-        if better {
-            best = Some(found);
+        let values = alternate(rows, first, &known, &factors);
+        let left = squares(rows, first, &product(&values, &known, None));
+        let enough = AS_GOOD[0] * left + AS_GOOD[1] * first.len() as f64;
+        if best.as_ref().is_some_and(|(least, ..)| *least <= enough) {
+            break;
         }
-        if capped || worse {
+        let capped = factors.iter().all(|factor| factor.design.ends.len() <= degree);
+        factors.iter_mut().zip(values).for_each(|(factor, values)| factor.guess = values);
+        best = Some((left, degree, factors));
+        if capped {
             break;
         }
     }
-    best.expect("at least one degree is tried")
+    let (_, degree, factors) = best.expect("at least one degree is tried");
+    validated(rows, &known, &factors, degree)
 }
 
 /// One factor: its terms, and its first guess by row.
@@ -55,8 +58,8 @@ struct Factor {
 impl Factor {
     fn new(columns: &[Vec<f64>], part: &[usize], degree: usize, joint: (&Design, &Fit)) -> Factor {
         let mut design = Design::new(columns[0].len(), columns.to_vec(), &[part.to_vec()], None);
-        let most = design.ends.iter().rposition(|&end| end <= MOST_TERMS).unwrap_or(0);
-        design.truncate(degree.min(most));
+        design.truncate_to(MOST_TERMS);
+        design.truncate(degree);
         let coefficients = leading(&design, part, joint);
         let guess = design.evaluated(&coefficients);
         Factor { design, guess }
@@ -105,12 +108,9 @@ fn leading(design: &Design, part: &[usize], (whole, fit): (&Design, &Fit)) -> Ve
 }
 
 fn validated(rows: &Rows, known: &[f64], factors: &[Factor], degree: usize) -> Fit {
-    let folds = folds(known.len());
     let mut errors = vec![0.0; known.len()];
-    for fold in &folds {
-        let others: Vec<usize> =
-            folds.iter().filter(|other| !std::ptr::eq(*other, fold)).flatten().copied().collect();
-        let values = alternate(rows, &others, known, factors);
+    for fold in &folds(known.len()) {
+        let values = product(&alternate(rows, fold, known, factors), known, None);
         fold.iter().for_each(|&row| errors[row] = rows.output[row] - values[row]);
     }
     let terms = factors.iter().map(|factor| factor.design.terms.len()).sum();
@@ -118,36 +118,41 @@ fn validated(rows: &Rows, known: &[f64], factors: &[Factor], degree: usize) -> F
     Fit { degree, terms, coefficients: Vec::new(), errors, residual }
 }
 
-/// Fits each factor in turn to some rows, the others held; returns the product in every row.
-fn alternate(rows: &Rows, fitted: &[usize], known: &[f64], factors: &[Factor]) -> Vec<f64> {
+/// Fits each factor in turn, the others held, to all rows but those of one fold; returns the factors
+/// in every row.
+fn alternate(rows: &Rows, fold: &[usize], known: &[f64], factors: &[Factor]) -> Vec<Vec<f64>> {
+    let folds = folds(known.len());
+    let others = folds.iter().filter(|other| other.as_slice() != fold);
+    let fitted: Vec<usize> = others.flatten().copied().collect();
     let mut values: Vec<Vec<f64>> = factors.iter().map(|factor| factor.guess.clone()).collect();
     let mut last = f64::INFINITY;
     for _ in 0..ROUNDS {
         for (own, factor) in factors.iter().enumerate() {
             let scale = product(&values, known, Some(own));
             let sums =
-                Sums::of(&factor.design, fitted, [&rows.output, &rows.weights], Some(&scale));
+                Sums::of(&factor.design, &fitted, [&rows.output, &rows.weights], Some(&scale));
             let solver = Cholesky::new(&sums.matrix, factor.design.terms.len());
             let solved = solver.back(&solver.forward(&sums.vector), factor.design.terms.len());
             values[own] = factor.design.evaluated(&solved);
             normalise(&mut values[own]);
         }
         // The last factor fitted has lost its size to the normalisation; one number gives it back.
-        let size = best_size(rows, fitted, &product(&values, known, None));
+        let size = best_size(rows, &fitted, &product(&values, known, None));
         if let Some(first) = values.first_mut() {
             first.iter_mut().for_each(|value| *value *= size);
         }
-        let whole = product(&values, known, None);
-        let left: f64 = fitted
-            .iter()
-            .map(|&row| rows.weights[row] * (rows.output[row] - whole[row]).powi(2))
-            .sum();
+        let left = squares(rows, &fitted, &product(&values, known, None));
         if left >= last * (1.0 - SETTLED) {
             break;
         }
         last = left;
     }
-    product(&values, known, None)
+    values
+}
+
+/// Returns the weighted sum of squares that values leave of the output in some rows.
+fn squares(rows: &Rows, of: &[usize], values: &[f64]) -> f64 {
+    of.iter().map(|&row| rows.weights[row] * (rows.output[row] - values[row]).powi(2)).sum()
 }
 
 fn product(values: &[Vec<f64>], known: &[f64], except: Option<usize>) -> Vec<f64> {

@@ -8,6 +8,7 @@ use super::output::Finding;
 use super::shape::{Coordinate, Join, Shape};
 use super::tested::Tested;
 use crate::dataset::Dataset;
+use rayon::prelude::*;
 
 /// The forms that hold at a level of verdict, from which templates are made.
 pub(super) struct Suggested<'a> {
@@ -168,7 +169,9 @@ impl Suggested<'_> {
         let count = arguments.len();
         let mut together = vec![vec![true; count]; count];
         let pairs = (0..count).flat_map(|a| (a + 1..count).map(move |b| [a, b]));
-        for [a, b] in pairs.filter(|pair| self.separate(arguments, *pair, join)) {
+        let pairs: Vec<[usize; 2]> = pairs.collect();
+        let apart = pairs.into_par_iter().filter(|pair| self.separate(arguments, *pair, join));
+        for [a, b] in apart.collect::<Vec<_>>() {
             (together[a][b], together[b][a]) = (false, false);
         }
         groups(&together)

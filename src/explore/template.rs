@@ -5,6 +5,7 @@ use super::output::{Finding, Influence};
 use super::suggested::Suggested;
 use super::tested::Tested;
 use crate::dataset::Dataset;
+use rayon::prelude::*;
 use serde::Serialize;
 
 /// A formula with holes, for a search.
@@ -44,12 +45,12 @@ pub(super) fn templates(
         let needless = tested.needless(influences, level, &[]);
         let needed = tested.inputs.iter().copied().filter(|input| !needless.contains(input));
         let inputs: Vec<usize> = needed.collect();
-        let fitted = suggested.candidates(&inputs).into_iter().map(|candidate| {
+        let fitted = suggested.candidates(&inputs).into_par_iter().map(|candidate| {
             let departure = suggested.departure(&candidate);
             candidate.template(dataset, output, departure, [tested.full.degree, all])
         });
-        let mut fitted: Vec<Template> =
-            fitted.filter(|template| suggested.accepts(template.verdict)).collect();
+        let mut fitted: Vec<Template> = fitted.collect();
+        fitted.retain(|template| suggested.accepts(template.verdict));
         let size = |template: &Template| (template.most_arguments, template.terms);
         fitted.sort_by(|a, b| {
             let residuals = a.departure.residual.total_cmp(&b.departure.residual);
