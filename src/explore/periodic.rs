@@ -21,7 +21,7 @@ const FEW_ROWS: usize = 512;
 /// and relative to the best, that is as good. By hand, unmeasured.
 const PROMISING: f64 = 0.5;
 const AS_GOOD: f64 = 2.0;
-/// The golden sections of a step. By hand: the place is known to 1e-6 of a cycle.
+/// The golden sections of a step. By hand: the place is known to 1e-5 of a cycle.
 const SECTIONS: usize = 24;
 
 /// Tests each input for a period.

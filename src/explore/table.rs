@@ -8,7 +8,7 @@ use crate::dataset::Dataset;
 const ROUNDS: usize = 200;
 const SETTLED: f64 = 1e-9;
 
-/// The most rows of a grid that is compared value by value. By hand: a second for each form.
+/// The most rows of a grid that is compared value by value. By hand, unmeasured.
 const MOST_ROWS: usize = 1 << 18;
 
 /// How unequal distances along an axis may be that is mirrored, relative to its extent. By hand:
