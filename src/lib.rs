@@ -19,6 +19,7 @@
 //! | [`program`] | instructions, verified programs, outer forms, effective code, hashes, formula text |
 //! | [`simplify`] | algebra on programs |
 //! | [`dataset`] | tables of samples, where they come from, what is claimed of them; their files, the incumbents |
+//! | [`explore`] | what data say before a search: inputs that matter, separations that hold, templates |
 //! | [`import`], [`export`] | other people's files made datasets; datasets made files for other programs |
 //! | [`grammar`], [`cost`] | what may be written, what it costs on a GPU; their `.ron` files |
 //! | [`eval`] | the data-parallel interpreter, losses, normal equations, scores; the same programs in f64, f16, intervals |
@@ -92,6 +93,7 @@ pub mod program;
 pub mod simplify;
 
 pub mod dataset;
+pub mod explore;
 pub mod export;
 pub mod grammar;
 pub mod import;

@@ -2,7 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
-const LAYERS: [&str; 29] = [
+const LAYERS: [&str; 30] = [
     "deadline",
     "file",
     "printable",
@@ -13,6 +13,7 @@ const LAYERS: [&str; 29] = [
     "program",
     "simplify",
     "dataset",
+    "explore",
     "import",
     "export",
     "grammar",

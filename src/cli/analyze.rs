@@ -1,9 +1,10 @@
 //! `lgp analyze`: which variables and subexpressions recur.
 
+use super::explore::Explored;
 use super::run_folder::{self, Which};
 use super::{Common, Failure};
 use crate::program::{Arg, Draft, Names};
-use crate::run::{Census, Recurring};
+use crate::run::{Census, Recurring, Subject};
 use crate::search::{Front, FrontMember};
 use serde::Serialize;
 use std::fmt::Write;
@@ -15,6 +16,9 @@ use std::path::PathBuf;
 /// change of variable that the data calls for. Constants are written `c`. A subexpression that
 /// occurs only within a larger one, or only moves or scales another, is not listed.
 ///
+/// `from` is the cost from which on formulas of the front depend on a variable. With --explore also
+/// what the run's data say, as `lgp info DATASET --explore` does.
+///
 /// For example: lgp analyze runs/dfg --top 10
 #[derive(clap::Args)]
 pub struct Args {
@@ -23,6 +27,9 @@ pub struct Args {
     /// The number of subexpressions to show
     #[arg(long, value_name = "N", default_value_t = 20)]
     top: usize,
+    /// Test on the run's data which inputs matter and which separations hold
+    #[arg(long)]
+    explore: bool,
 }
 
 #[derive(Serialize)]
@@ -30,6 +37,8 @@ struct Analysis {
     front: Part,
     /// The best formulas at each cost, sampled during the search; null if not recorded.
     run: Option<Part>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    explored: Option<Explored>,
 }
 
 #[derive(Serialize)]
@@ -50,21 +59,33 @@ struct Variable {
 }
 
 pub fn run(args: &Args, common: &Common) -> Result<(), Failure> {
-    let (run, front) = run_folder::load(&args.run, Which::default())?;
+    let (mut run, front) = run_folder::load(&args.run, Which::default())?;
     let names = run.names();
     let through = Census::load(&args.run, &run)?;
     let mut census = Census::default();
     for member in &front.members {
         census.count(&member.program, &names, run.seconds);
     }
+    let explored = match args.explore {
+        true => {
+            let subject = Subject::of_run(&mut run, &args.run)?;
+            Some(Explored::of(&subject.dataset, &run.dataset))
+        }
+        false => None,
+    };
     let mut analysis = Analysis {
+        explored,
         front: Part::of(&census, &names, args.top),
         run: through.as_ref().map(|census| Part::of(census, &names, args.top)),
     };
     for (i, variable) in analysis.front.variables.iter_mut().enumerate() {
         variable.cheapest = cheapest(&front, i);
     }
-    common.result(&analysis, &text(&analysis, through.as_ref()))
+    let mut page = text(&analysis, through.as_ref());
+    if let Some(explored) = &analysis.explored {
+        page += &format!("\n{}", explored.page());
+    }
+    common.result(&analysis, &page)
 }
 
 impl Part {
@@ -106,6 +127,12 @@ fn text(analysis: &Analysis, through: Option<&Census>) -> String {
         let from = variable.cheapest.map(|cost| format!("{cost} cycles"));
         let (run, from) = (run.unwrap_or_default(), from.unwrap_or_default());
         line([&percent(variable.share), &run, &from, "", &variable.name]);
+    }
+    let unused = analysis.front.variables.iter().filter(|variable| variable.count == 0);
+    let unused: Vec<&str> = unused.map(|variable| variable.name.as_str()).collect();
+    if !unused.is_empty() {
+        let names = unused.join(", ");
+        line([&format!("\nNo formula of the front depends on {names}."), "", "", "", ""]);
     }
     line(["\n  front", "run", "since", "operations", "subexpression"]);
     for found in &analysis.front.subexpressions {

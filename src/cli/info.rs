@@ -1,5 +1,6 @@
 //! `lgp info`: the contents of a dataset.
 
+use super::explore::Explored;
 use super::{Common, Failure};
 use crate::dataset::{Column, Dataset, Split, incumbents_for};
 use serde::Serialize;
@@ -8,11 +9,18 @@ use std::path::PathBuf;
 
 /// Show what a dataset holds and where it comes from
 ///
-/// For example: lgp info datasets/dfg.bin
+/// With --explore also what the rows say before a search, output by output: the share of the
+/// variance that each input explains alone, and with all its interactions; which forms hold, such as
+/// f(x)*g(y) or f(x*y), and how nearly; a template with the command that searches for its holes.
+///
+/// For example: lgp info datasets/dfg.bin --explore
 #[derive(clap::Args)]
 pub struct Args {
     /// The dataset: a file from `lgp generate` or `lgp import`
     dataset: PathBuf,
+    /// Test which inputs matter and which separations hold
+    #[arg(long)]
+    explore: bool,
 }
 
 #[derive(Serialize)]
@@ -28,6 +36,8 @@ struct Info {
     search: Rows,
     validation: Rows,
     incumbents: Vec<String>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    explored: Option<Explored>,
 }
 
 #[derive(Serialize)]
@@ -62,7 +72,9 @@ pub fn run(args: &Args, common: &Common) -> Result<(), Failure> {
         let columns = columns.iter().enumerate();
         columns.map(|(index, column)| describe(&dataset, column, first + index)).collect()
     };
+    let explored = args.explore.then(|| Explored::of(&dataset, &args.dataset));
     let info = Info {
+        explored,
         hash: dataset.hash(),
         path: args.dataset.clone(),
         inputs: described(&dataset.inputs, 0),
@@ -137,6 +149,9 @@ fn page(info: &Info) -> String {
         for column in columns {
             line(format!("{kind:<6}  {}", row(column, width)));
         }
+    }
+    if let Some(explored) = &info.explored {
+        line(format!("\n{}", explored.page().trim_end()));
     }
     page
 }

@@ -8,6 +8,7 @@ mod columns;
 mod cost;
 mod emit;
 mod eval;
+mod explore;
 mod export;
 mod failure;
 mod fit;
