@@ -21,20 +21,36 @@
 
 mod chebyshev;
 mod derivative;
+mod differential_evolution;
+mod global;
+mod global_fit;
 mod levenberg_marquardt;
 mod linear_programs;
 mod measure;
 mod minimax;
 mod model;
 mod negligible;
+mod nelder_mead;
+mod objective;
+mod population;
+mod range;
 mod rounding;
+mod rows;
 mod shorten;
+mod simplex;
+mod within;
 
 pub use derivative::Differentiated;
+pub use differential_evolution::{DifferentialEvolution, End, Minimum, Outside, Start, Strategy};
+pub use global::GlobalSettings;
+pub use global_fit::{Finish, GlobalFit, fit_globally};
 pub use levenberg_marquardt::{Fitter, Stop};
 pub use measure::Measure;
 pub use minimax::{Rounds, minimax, minimax_free, shorten_minimax};
-pub use model::{Parameter, fit_model};
+pub use model::{LocalFit, fit_model};
 pub use negligible::{drop_negligible, drop_negligible_minimax};
+pub use nelder_mead::NelderMead;
+pub use range::{Range, RangeError, Scale};
 pub use rounding::rounding_errors;
 pub use shorten::shorten;
+pub use within::{Bound, Parameter};
