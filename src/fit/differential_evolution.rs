@@ -158,7 +158,7 @@ impl DifferentialEvolution {
         seed: u64,
         evaluate: &mut dyn FnMut(&[f64], &mut [f64]),
     ) -> Result<Minimum, RangeError> {
-        let mut population = Population::new(self, ranges, seed)?;
+        let mut population = Population::new(self, ranges, seed, 0)?;
         let mut all = |points: &[f64], _: &[f64], values: &mut [f64]| evaluate(points, values);
         let end = population.evolve(&mut all);
         let (at, value) = (population.best_point(), population.best_value());

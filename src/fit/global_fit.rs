@@ -1,14 +1,12 @@
 //! The global fit of a program's constants.
 
 use super::differential_evolution::End;
-use super::global::GlobalSettings;
-use super::objective::Objective;
-use super::population::Population;
-use super::rows::GrowingRows;
-use super::within::{maximum_within, rounded_within, squares_within};
+use super::global::{GlobalSettings, agree};
+use super::round::{Found, Rounds};
+use super::within::rounded_within;
 use super::{Fitter, Measure, Parameter, Range, RangeError};
 use crate::eval::Samples;
-use crate::program::{Draft, Program};
+use crate::program::Draft;
 
 /// What a global fit came to.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -21,7 +19,7 @@ pub struct GlobalFit {
     pub evaluations: u64,
     /// The number of samples in all these evaluations.
     pub sampled: u64,
-    /// Why the differential evolution ended.
+    /// Why the differential evolution of the best round ended.
     pub end: End,
     /// What found the constants last.
     pub finish: Finish,
@@ -69,46 +67,29 @@ pub fn fit_globally(
     measure: Measure,
     settings: &GlobalSettings,
 ) -> Result<GlobalFit, RangeError> {
-    let mut ranges: Vec<Range> = Vec::with_capacity(parameters.len());
-    for parameter in parameters {
-        let [low, high] = parameter.bounds;
-        let start = &mut program.consts[parameter.index];
-        ranges.push(parameter.range(*start)?);
-        *start = start.clamp(low, high);
+    let ranges = ranges_around(program, parameters)?;
+    let mut rounds = Rounds::new(fitter, program, samples, parameters, measure, &ranges, settings);
+    let started = rounds.started(program);
+    let mut best: Option<Found> = None;
+    for round in 0..u64::from(settings.rounds.max(1)) {
+        let found = rounds.round(round, program)?;
+        let is_last = rounds.evaluations >= settings.max_evaluations
+            || found.end == End::Deadline
+            || best.as_ref().is_some_and(|best| agree(best.loss, found.loss, found.first_loss));
+        if best.as_ref().is_none_or(|best| found.loss < best.loss) {
+            best = Some(found);
+        }
+        if is_last {
+            break;
+        }
     }
-    let mut population = Population::new(&settings.evolution, &ranges, settings.seed)?;
-    let verified = Program::verify(program.clone()).expect("effective code is a program");
-    let mut objective = Objective::new(fitter, &verified, samples, parameters, measure);
-    let start = point_of(program, parameters);
-    let started = objective.loss(samples, &start);
-    let rows = GrowingRows::new(samples, settings.first_rows, settings.seed);
-    let end = rows.evolve(&mut population, &mut objective, &fitter.deadline);
-    let mut evaluations = population.evaluations + 1;
-    let mut found = Found {
-        program: with_constants(program, parameters, &population.best_point()),
-        loss: population.best_value(),
-        finish: Finish::Evolution,
-    };
-    let mut sampled = objective.sampled;
-    objective.release(fitter);
-    let has_gained = found.descend(fitter, samples, parameters, measure);
-    if !has_gained || lacks_a_derivative(fitter, &found.program, parameters) {
-        let mut objective = Objective::new(fitter, &verified, samples, parameters, measure);
-        let point = point_of(&found.program, parameters);
-        let position = ranges.iter().zip(&point).map(|(range, value)| range.position(*value));
-        let position: Vec<f64> = position.collect();
-        let minimum =
-            settings.refine(&population, &position, &mut |point| objective.loss(samples, point));
-        evaluations += minimum.evaluations;
-        sampled += objective.sampled;
-        objective.release(fitter);
-        let trial = with_constants(program, parameters, &minimum.at);
-        found.offer(trial, minimum.value, Finish::Simplex);
-    }
-    let mut fit = GlobalFit { loss: started, evaluations, sampled, end, finish: Finish::Start };
-    if found.loss < started {
-        program.copy_from(&found.program);
-        (fit.loss, fit.finish) = (found.loss, found.finish);
+    let (evaluations, sampled) = (rounds.evaluations, rounds.sampled);
+    let best = best.expect("at least one round");
+    let mut fit =
+        GlobalFit { loss: started, evaluations, sampled, end: best.end, finish: Finish::Start };
+    if best.loss < started {
+        program.copy_from(&best.program);
+        (fit.loss, fit.finish) = (best.loss, best.finish);
     }
     if measure != Measure::Max && fit.loss.is_finite() {
         fit.loss = rounded_within(fitter, program, samples, parameters).unwrap_or(fit.loss);
@@ -116,57 +97,13 @@ pub fn fit_globally(
     Ok(fit)
 }
 
-/// The best constants so far, but for the program's own.
-struct Found {
-    program: Draft,
-    loss: f64,
-    finish: Finish,
-}
-
-impl Found {
-    fn offer(&mut self, program: Draft, loss: f64, finish: Finish) -> bool {
-        let is_better = loss < self.loss;
-        if is_better {
-            *self = Found { program, loss, finish };
-        }
-        is_better
+/// Returns the ranges that are searched, and moves the constants to the bounds that they exceed.
+fn ranges_around(program: &mut Draft, parameters: &[Parameter]) -> Result<Vec<Range>, RangeError> {
+    let mut ranges = Vec::with_capacity(parameters.len());
+    for parameter in parameters {
+        let start = &mut program.consts[parameter.index];
+        ranges.push(parameter.range(*start)?);
+        *start = parameter.nearest((*start).into());
     }
-
-    /// Follows derivatives down. Returns true if they led anywhere.
-    fn descend(
-        &mut self,
-        fitter: &mut Fitter,
-        samples: &Samples,
-        parameters: &[Parameter],
-        measure: Measure,
-    ) -> bool {
-        let mut trial = self.program.clone();
-        let loss = match measure {
-            Measure::Max => maximum_within(fitter, &mut trial, samples, parameters),
-            _ => squares_within(fitter, &mut trial, samples, parameters),
-        };
-        self.offer(trial, loss, Finish::Derivatives)
-    }
-}
-
-fn point_of(program: &Draft, parameters: &[Parameter]) -> Vec<f64> {
-    parameters.iter().map(|parameter| program.consts[parameter.index].into()).collect()
-}
-
-fn with_constants(program: &Draft, parameters: &[Parameter], point: &[f64]) -> Draft {
-    let mut program = program.clone();
-    for (parameter, value) in parameters.iter().zip(point) {
-        program.consts[parameter.index] = parameter.nearest(*value);
-    }
-    program
-}
-
-/// Returns true if the outputs have no derivative by a parameter, whatever its value.
-fn lacks_a_derivative(fitter: &mut Fitter, program: &Draft, parameters: &[Parameter]) -> bool {
-    fitter.derivative.assign(program);
-    let has_one = |parameter: &Parameter| {
-        let mut entries = fitter.derivative.jacobian.entries.iter().flatten();
-        entries.any(|&(index, _)| usize::from(index) == parameter.index)
-    };
-    !parameters.iter().all(has_one)
+    Ok(ranges)
 }

@@ -4,6 +4,10 @@
 //! and [`drop_negligible`] then remove digits and constants that make no difference. [`fit_model`]
 //! fits the user's own model, and a [`Measure`] says which error is to be small.
 //!
+//! All these are local: they go down from where they start. [`fit_globally`] searches the whole
+//! range of each constant first, as [`GlobalSettings`] have it: by [`DifferentialEvolution`], and
+//! where derivatives lead nowhere by [`NelderMead`]. Both minimise any other function, too.
+//!
 //! ```
 //! use lgp::dataset::Split;
 //! use lgp::eval::Samples;
@@ -32,8 +36,10 @@ mod model;
 mod negligible;
 mod nelder_mead;
 mod objective;
+mod parameter;
 mod population;
 mod range;
+mod round;
 mod rounding;
 mod rows;
 mod shorten;
@@ -50,7 +56,7 @@ pub use minimax::{Rounds, minimax, minimax_free, shorten_minimax};
 pub use model::{LocalFit, fit_model};
 pub use negligible::{drop_negligible, drop_negligible_minimax};
 pub use nelder_mead::NelderMead;
+pub use parameter::{Bound, Parameter};
 pub use range::{Range, RangeError, Scale};
 pub use rounding::rounding_errors;
 pub use shorten::shorten;
-pub use within::{Bound, Parameter};

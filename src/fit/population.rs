@@ -24,6 +24,8 @@ pub(super) struct Population<'a> {
     /// The points to evaluate, in the function's own coordinates.
     points: Vec<f64>,
     best: usize,
+    /// The least value of the individuals as they were spread.
+    pub first_value: f64,
     pub evaluations: u64,
 }
 
@@ -33,11 +35,13 @@ impl<'a> Population<'a> {
         settings: &'a DifferentialEvolution,
         ranges: &'a [Range],
         seed: u64,
+        stream: u64,
     ) -> Result<Population<'a>, RangeError> {
         ranges.iter().try_for_each(Range::check_finite)?;
         let usual = 40.min(10 * ranges.len());
         let count = settings.individuals.unwrap_or(usual).max(LEAST_INDIVIDUALS);
         let mut rng = ChaCha8Rng::seed_from_u64(seed);
+        rng.set_stream(stream);
         let positions = spread(settings.start, count, ranges, &mut rng);
         Ok(Population {
             settings,
@@ -49,6 +53,7 @@ impl<'a> Population<'a> {
             values: vec![f64::INFINITY; count],
             trial_values: vec![f64::INFINITY; count],
             best: 0,
+            first_value: f64::INFINITY,
             evaluations: 0,
         })
     }
@@ -60,8 +65,11 @@ impl<'a> Population<'a> {
         self.trial_values.fill(f64::INFINITY);
         evaluate(&self.points, &self.trial_values, &mut self.values);
         self.values.iter_mut().for_each(ordered);
-        self.evaluations += self.values.len() as u64;
         self.find_best();
+        if self.evaluations == 0 {
+            self.first_value = self.best_value();
+        }
+        self.evaluations += self.values.len() as u64;
     }
 
     /// Evaluates all individuals, and goes from generation to generation to the end.
