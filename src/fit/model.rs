@@ -16,15 +16,16 @@ pub struct LocalFit {
     pub loss: f64,
     /// The number of starts.
     pub starts: u32,
-    /// The number of starts that ended no more than 2 % above the best, or within the data's
-    /// rounding.
+    /// The number of starts that ended no more than a thousandth above the best, or within the
+    /// data's rounding.
     pub reached: u32,
     /// True if the loss is within the data's rounding, so that no fit is better.
     pub is_exact: bool,
 }
 
-/// The share above the best loss up to which another counts as the same. By hand, unmeasured.
-const SAME: f64 = 0.02;
+/// The share above the best loss up to which another counts as the same. By hand: waves of wrong
+/// frequencies hardly explain anything, and their losses differ by a hundredth.
+const SAME: f64 = 1e-3;
 
 /// The least share of starts that must reach the best loss, as one in so many. By hand, unmeasured.
 const ONE_IN: u32 = 4;
