@@ -3,7 +3,7 @@
 use lgp::dataset::{Dataset, axis};
 use lgp::fit::Measure;
 use lgp::op::Op;
-use lgp::search::{Front, Goal, Method, Problem, Requirement, Search, Transform};
+use lgp::search::{CostOf, Front, Goal, Method, Problem, Requirement, Search, Transform};
 use proptest::prelude::*;
 use proptest::test_runner::TestRunner;
 use std::sync::atomic::{AtomicUsize, Ordering};
@@ -64,11 +64,25 @@ fn goal() -> impl Strategy<Value = Goal> {
     ]);
     let measure = prop::sample::select(Measure::ALL.to_vec());
     let requirements = prop::collection::vec(requirement(), 0..3);
-    (measure, requirements, prop_oneof![12 => prop::collection::vec(transform.clone(), 0..3), 1 => prop::collection::vec(transform, 3..5)], number()).prop_map(
-        |(measure, requirements, transforms, max_cost)| Goal {
+    let transforms = prop_oneof![
+        12 => prop::collection::vec(transform.clone(), 0..3),
+        1 => prop::collection::vec(transform, 3..5),
+    ];
+    let template = prop::sample::select(vec![
+        None,
+        None,
+        Some("y = f(x)*$a; z = f(u)".to_owned()),
+        Some("(y, z) = $M(f(x, u), g(x))".to_owned()),
+        Some("y = f(q)".to_owned()),
+    ]);
+    let cost_of = prop::sample::select(vec![CostOf::Whole, CostOf::Whole, CostOf::Holes]);
+    (measure, requirements, transforms, number(), template, cost_of).prop_map(
+        |(measure, requirements, transforms, max_cost, template, cost_of)| Goal {
             measure,
             requirements,
             transforms,
+            template,
+            cost_of,
             max_cost,
         },
     )

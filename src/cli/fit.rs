@@ -4,7 +4,11 @@ use super::eval::assigned_outputs;
 use super::{Common, Exit, Failure, columns::Columns};
 use crate::cost::Profile;
 use crate::dataset::{Dataset, output_units};
-use crate::fit::{Measure, Parameter, fit_model};
+use crate::eval::Samples;
+use crate::fit::{
+    Bound, Fitter, GlobalFit, GlobalSettings, LocalFit, Measure, Parameter, RangeError, Scale,
+    fit_globally, fit_model,
+};
 use crate::program::{Draft, Names, Parsed, Program};
 use crate::run::MemberRecord;
 use crate::search::{Front, FrontMember};
@@ -38,6 +42,14 @@ pub struct Args {
     #[arg(long, value_name = "NAME=LOW..HIGH", value_delimiter = ',', value_parser = bounds)]
     #[arg(allow_hyphen_values = true)]
     bounds: Vec<(String, [f32; 2])>,
+    /// Constants to search on a logarithmic scale, as in a,b; they need two positive --bounds
+    #[arg(long, value_name = "NAME", value_delimiter = ',')]
+    log: Vec<String>,
+    /// Also search the whole range between bounds, by differential evolution (without bounds: ten
+    /// times the start, of either sign); done anyway if fewer than a quarter of the starts reach the
+    /// best fit
+    #[arg(long)]
+    global: bool,
     /// The number of starting points to fit from; the best fit counts
     #[arg(long, value_name = "N", default_value_t = 24)]
     #[arg(value_parser = clap::value_parser!(u32).range(1..=100_000))]
@@ -49,9 +61,29 @@ pub struct Args {
 
 #[derive(Serialize)]
 struct Fitted<'a> {
-    constants: BTreeMap<&'a str, f32>,
+    #[serde(flatten)]
+    constants: Constants<'a>,
     #[serde(flatten)]
     member: MemberRecord,
+}
+
+#[derive(Serialize)]
+struct Constants<'a> {
+    #[serde(rename = "constants")]
+    values: BTreeMap<&'a str, f32>,
+    /// Those that lie on one of their bounds.
+    at_bounds: BTreeMap<&'a str, Bound>,
+}
+
+impl Constants<'_> {
+    fn line(&self, name: &str, value: f32) -> String {
+        let at_bound = match self.at_bounds.get(name) {
+            Some(Bound::Lower) => " (at its lower bound)",
+            Some(Bound::Upper) => " (at its upper bound)",
+            None => "",
+        };
+        format!("{name:>8} = {value}{at_bound}\n")
+    }
 }
 
 pub fn run(args: &Args, common: &Common) -> Result<(), Failure> {
@@ -68,35 +100,93 @@ pub fn run(args: &Args, common: &Common) -> Result<(), Failure> {
     let units = output_units(&dataset.outputs);
     let samples = measure.all_samples(&dataset.search, dataset.inputs.len(), &units);
     let mut draft = program.into_draft();
-    let mut parameters: Vec<Parameter> = free
-        .iter()
-        .map(|constant| Parameter {
-            index: constant.index.into(),
-            bounds: [f32::NEG_INFINITY, f32::INFINITY],
-        })
-        .collect();
+    let unbounded = free.iter().map(|constant| Parameter::unbounded(constant.index.into()));
+    let mut parameters: Vec<Parameter> = unbounded.collect();
     for (name, bounds) in &args.bounds {
         parameters[place(name, &known, "--bounds")?].bounds = *bounds;
     }
     for (name, value) in &args.start {
         draft.consts[parameters[place(name, &known, "--start")?].index] = *value;
     }
-    for parameter in &parameters {
-        let [low, high] = parameter.bounds;
+    for name in &args.log {
+        parameters[place(name, &known, "--log")?].scale = Scale::Logarithmic;
+    }
+    for (parameter, name) in parameters.iter().zip(&known) {
         let value = &mut draft.consts[parameter.index];
+        parameter.range(*value).map_err(|error| unusable(name, error))?;
+        let [low, high] = parameter.bounds;
         *value = value.clamp(low, high);
     }
-    let loss = fit_model(&mut draft, &samples, &parameters, measure, args.starts, common.seed());
-    if !loss.is_finite() {
+    let seed = common.seed();
+    let local = fit_model(&mut draft, &samples, &parameters, measure, args.starts, seed);
+    let global = match args.global || local.starts_disagree() {
+        true => Some(globally(&mut draft, &samples, &parameters, measure, seed)?),
+        false => None,
+    };
+    if !global.map_or(local.loss, |global| global.loss).is_finite() {
         let message = "the model is not finite on every sample from any start; give other --start values, or --bounds";
         return Err(Failure::input(message));
+    }
+    let error_of = |loss: f64| match measure {
+        Measure::Max => loss,
+        _ => (loss / samples.total_weight()).sqrt(),
+    };
+    if let Some(global) = global {
+        common.note(&remark(local, global, measure, error_of));
     }
     let constants: BTreeMap<&str, f32> = known
         .iter()
         .zip(&parameters)
         .map(|(name, parameter)| (*name, draft.consts[parameter.index]))
         .collect();
-    show(measure, common, draft_member(draft, &dataset, &profile, &names)?, constants, &names)
+    let bound = |parameter: &Parameter| parameter.bound(draft.consts[parameter.index]);
+    let bounds = known.iter().zip(parameters.iter().map(bound));
+    let at_bounds = bounds.filter_map(|(name, bound)| Some((*name, bound?))).collect();
+    let member = draft_member(draft, &dataset, &profile, &names)?;
+    show(measure, common, member, Constants { values: constants, at_bounds }, &names)
+}
+
+fn globally(
+    draft: &mut Draft,
+    samples: &Samples,
+    parameters: &[Parameter],
+    measure: Measure,
+    seed: u64,
+) -> Result<GlobalFit, Failure> {
+    let settings = GlobalSettings { seed, ..GlobalSettings::default() };
+    fit_globally(&mut Fitter::default(), draft, samples, parameters, measure, &settings)
+        .map_err(|error| Failure::usage(format!("--bounds: {error}")))
+}
+
+/// Says why there was a global fit, and what it came to.
+fn remark(
+    local: LocalFit,
+    global: GlobalFit,
+    measure: Measure,
+    error_of: impl Fn(f64) -> f64,
+) -> String {
+    let LocalFit { reached, starts, .. } = local;
+    let why = match local.starts_disagree() {
+        true => format!("{reached} of {starts} starts reached the best fit"),
+        false => format!("a global fit after {starts} starts"),
+    };
+    let (before, after) = (error_of(local.loss), error_of(global.loss));
+    let what = match global.loss < local.loss {
+        true if before.is_finite() => {
+            format!("a global search found a better one, {measure} {after:.3e} for {before:.3e}")
+        }
+        true => format!("a global search found {measure} {after:.3e}"),
+        false => "a global search found none better".to_owned(),
+    };
+    format!("{why}; {what} ({} evaluations)", global.evaluations)
+}
+
+fn unusable(name: &str, error: RangeError) -> Failure {
+    let option = match error {
+        RangeError::NotPositive { .. } => "--log",
+        _ => "--bounds",
+    };
+    Failure::usage(format!("{option}: ${name}: {error}"))
 }
 
 fn draft_member(
@@ -113,11 +203,11 @@ fn show(
     measure: Measure,
     common: &Common,
     member: FrontMember,
-    constants: BTreeMap<&str, f32>,
+    constants: Constants,
     names: &Names,
 ) -> Result<(), Failure> {
-    let mut text: String =
-        constants.iter().map(|(name, value)| format!("{name:>8} = {value}\n")).collect();
+    let values = constants.values.iter();
+    let mut text: String = values.map(|(name, value)| constants.line(name, *value)).collect();
     let record = MemberRecord::new(&member, names);
     text += "\n";
     text += &front_table(&Front { measure, members: vec![member] }, &[], &names.outputs);

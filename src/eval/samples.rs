@@ -64,6 +64,35 @@ impl Samples {
         }
     }
 
+    /// Lays out some of the samples, with their weights, dead zones and standard errors. The total
+    /// weight is the same share of this one's as the rows are of all.
+    ///
+    /// # Panics
+    /// If `rows` is empty or names a sample that there is not.
+    pub fn select(&self, rows: &[u32]) -> Samples {
+        assert!(!rows.is_empty(), "at least one row");
+        let blocks = rows.len().div_ceil(BLOCK);
+        let columns = self.values.len() / self.blocks;
+        let weights = self.inputs + self.outputs..self.inputs + 2 * self.outputs;
+        let mut values = Vec::with_capacity(columns * blocks);
+        for column in 0..columns {
+            let given: &[f32] = bytemuck::cast_slice(self.column(column));
+            let padding = |last| if weights.contains(&column) { 0.0 } else { last };
+            push_column(&mut values, rows, |row| given[..self.rows][row], padding);
+        }
+        let picked =
+            |errors: &Vec<f32>| rows.iter().map(|&row| errors[row as usize]).collect::<Vec<f32>>();
+        Samples {
+            rows: rows.len(),
+            blocks,
+            inputs: self.inputs,
+            outputs: self.outputs,
+            values,
+            standard_errors: self.standard_errors.iter().map(picked).collect(),
+            total_weight: self.total_weight * rows.len() as f64 / self.rows as f64,
+        }
+    }
+
     /// Returns the number of samples.
     pub fn rows(&self) -> usize {
         self.rows

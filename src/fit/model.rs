@@ -1,32 +1,50 @@
 //! The fit of a user's own model: some constants free, within bounds, from several starts.
 
-use super::shorten::shorten_free;
-use super::{Fitter, Measure, Rounds, Stop, minimax_free};
+use super::rounding::Comparison;
+use super::within::{fit_within, rounded_within};
+use super::{Fitter, Measure, Parameter, Scale};
 use crate::eval::Samples;
 use crate::program::Draft;
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 
-/// A constant to be fitted.
+/// What fits from several starts came to.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Parameter {
-    /// The index in the constant table.
-    pub index: usize,
-    /// The least and the greatest value; infinite if unbounded.
-    pub bounds: [f32; 2],
+pub struct LocalFit {
+    /// The loss of the best: the weighted sum of squares, or for [`Measure::Max`] the largest
+    /// error. Not finite if the model is finite on all samples from no start.
+    pub loss: f64,
+    /// The number of starts.
+    pub starts: u32,
+    /// The number of starts that ended no more than a thousandth above the best, or within the
+    /// data's rounding.
+    pub reached: u32,
+    /// True if the loss is within the data's rounding, so that no fit is better.
+    pub is_exact: bool,
 }
 
-/// The end of the fit from each start. Chosen by hand, unmeasured.
-const TO_CONVERGENCE: Stop = Stop { max_steps: 500, min_gain: 1e-10 };
+/// The share above the best loss up to which another counts as the same. By hand: waves of wrong
+/// frequencies hardly explain anything, and their losses differ by a hundredth.
+const SAME: f64 = 1e-3;
 
-/// Fits the parameters of effective code, all other constants keeping their values. Returns the
-/// loss of the best of `starts` fits: the weighted sum of squares, or for [`Measure::Max`] the
-/// largest error.
+/// The least share of starts that must reach the best loss, as one in so many. By hand, unmeasured.
+const ONE_IN: u32 = 4;
+
+impl LocalFit {
+    /// Returns true if fewer than a quarter of the starts reached the best loss: then it is likely
+    /// that there is a better one which none has reached.
+    pub fn starts_disagree(&self) -> bool {
+        !self.is_exact && self.reached.saturating_mul(ONE_IN) < self.starts
+    }
+}
+
+/// Fits the parameters of effective code, all other constants keeping their values, from several
+/// starts, and keeps the best fit.
 ///
-/// The first start is the program's constants. Others are drawn within the bounds, or, if one is
-/// infinite, up to three octaves from the program's, of either sign. A parameter that would leave
-/// its bounds is held at the one that it meets, and the others are fitted again. Except for
-/// [`Measure::Max`], digits below the data's own rounding are removed.
+/// The first start is the program's constants. Others are drawn within the bounds, on the
+/// parameter's scale, or, if a bound is infinite, up to three octaves from the program's, of either
+/// sign. A parameter that would leave its bounds is held at the one that it meets, and the others
+/// are fitted again. Except for [`Measure::Max`], digits below the data's own rounding are removed.
 ///
 /// # Panics
 /// As [`Fitter::fit`]; if a parameter is not in the constant table, or its bounds are out of order.
@@ -37,88 +55,49 @@ pub fn fit_model(
     measure: Measure,
     starts: u32,
     seed: u64,
-) -> f64 {
+) -> LocalFit {
     let mut fitter = Fitter::default();
+    let mut comparison = Comparison::by(measure, samples);
     let mut rng = ChaCha8Rng::seed_from_u64(seed);
     let first = program.clone();
-    let mut least = f64::INFINITY;
+    let (mut loss, mut ends) = (f64::INFINITY, Vec::new());
     for start in 0..starts.max(1) {
         let mut trial = first.clone();
         if start > 0 {
             for parameter in parameters {
                 let value = &mut trial.consts[parameter.index];
-                *value = drawn(&mut rng, *value, parameter.bounds);
+                *value = drawn(&mut rng, *value, parameter);
             }
         }
-        let loss = fit_within(&mut fitter, &mut trial, samples, parameters, measure);
-        if loss < least {
-            least = loss;
+        let trial_loss = fit_within(&mut fitter, &mut trial, samples, parameters, measure);
+        ends.push(comparison.error(&mut fitter, &trial));
+        if trial_loss < loss {
+            loss = trial_loss;
             program.copy_from(&trial);
         }
     }
-    if measure != Measure::Max && least.is_finite() {
-        least = rounded_within(&mut fitter, program, samples, parameters).unwrap_or(least);
+    if measure != Measure::Max && loss.is_finite() {
+        loss = rounded_within(&mut fitter, program, samples, parameters).unwrap_or(loss);
     }
-    least
+    let best = ends.iter().copied().fold(f64::INFINITY, f64::min);
+    let is_best = |end: &&f64| end.is_finite() && **end <= best * (1.0 + SAME);
+    let reached = ends.iter().filter(is_best).count() as u32;
+    LocalFit { loss, starts: ends.len() as u32, reached, is_exact: comparison.is_rounding(best) }
 }
 
-/// Removes the parameters' digits below the data's rounding and returns the loss; changes nothing
-/// and returns none if a parameter would leave its bounds.
-fn rounded_within(
-    fitter: &mut Fitter,
-    program: &mut Draft,
-    samples: &Samples,
-    parameters: &[Parameter],
-) -> Option<f64> {
-    let mut short = program.clone();
-    let is_free = |index: usize| parameters.iter().any(|parameter| parameter.index == index);
-    let loss = shorten_free(fitter, &mut short, samples, 0.0, is_free);
-    let is_within = |parameter: &Parameter| {
-        let [low, high] = parameter.bounds;
-        (low..=high).contains(&short.consts[parameter.index])
-    };
-    parameters.iter().all(is_within).then(|| {
-        program.copy_from(&short);
-        loss
-    })
-}
-
-fn drawn(rng: &mut ChaCha8Rng, value: f32, [low, high]: [f32; 2]) -> f32 {
+fn drawn(rng: &mut ChaCha8Rng, value: f32, parameter: &Parameter) -> f32 {
+    let [low, high] = parameter.bounds;
     if low.is_finite() && high.is_finite() {
-        return low + (high - low) * rng.random::<f32>();
+        let share = rng.random::<f32>();
+        let between = |low: f32, high: f32| low + (high - low) * share;
+        return match parameter.scale {
+            Scale::Linear => between(low, high),
+            Scale::Logarithmic => between(low.log2(), high.log2()).exp2().clamp(low, high),
+        };
     }
     let sign = if rng.random_range(0..4) == 0 { -1.0 } else { 1.0 };
     let away = value.abs().max(1e-3) * rng.random_range(-3.0f32..3.0).exp2();
     (value.signum() * sign * away).clamp(low, high)
-}
-
-fn fit_within(
-    fitter: &mut Fitter,
-    program: &mut Draft,
-    samples: &Samples,
-    parameters: &[Parameter],
-    measure: Measure,
-) -> f64 {
-    let mut free: Vec<Parameter> = parameters.to_vec();
-    loop {
-        let is_free = |index: usize| free.iter().any(|parameter| parameter.index == index);
-        let mut loss = fitter.fit_free(program, samples, TO_CONVERGENCE, is_free);
-        if measure == Measure::Max && loss.is_finite() {
-            let rounds = Rounds::TO_CONVERGENCE;
-            loss = minimax_free(fitter, program, samples, rounds, is_free);
-        }
-        let outside = free.iter().position(|parameter| {
-            let [low, high] = parameter.bounds;
-            !(low..=high).contains(&program.consts[parameter.index])
-        });
-        match outside {
-            None => return loss,
-            Some(at) => {
-                let Parameter { index, bounds: [low, high] } = free.remove(at);
-                program.consts[index] = program.consts[index].clamp(low, high);
-            }
-        }
-    }
 }
 
 #[cfg(test)]
@@ -138,12 +117,13 @@ mod tests {
         let split = Split { columns: vec![xs, ys], ..Split::default() };
         let names = Names::new(["x"], ["y"]);
         let parsed = parse_template(template, Scope::Dataset(&names)).unwrap();
+        let parameter = |index: u16| Parameter { bounds, ..Parameter::unbounded(index.into()) };
         let parameters: Vec<Parameter> =
-            parsed.free.iter().map(|free| Parameter { index: free.index.into(), bounds }).collect();
+            parsed.free.iter().map(|free| parameter(free.index)).collect();
         let mut draft = parsed.program.into_draft();
         let samples = Measure::Rmse.all_samples(&split, 1, &[1.0]);
-        let loss = fit_model(&mut draft, &samples, &parameters, measure, 20, 1);
-        (loss, draft)
+        let fitted = fit_model(&mut draft, &samples, &parameters, measure, 20, 1);
+        (fitted.loss, draft)
     }
 
     const ANY: [f32; 2] = [f32::NEG_INFINITY, f32::INFINITY];

@@ -1,7 +1,7 @@
 //! Errors that no formula is to blame for: the data's rounding and standard errors.
 
-use super::Fitter;
 use super::minimax::errors;
+use super::{Fitter, Measure};
 use crate::dataset::Split;
 use crate::eval::{OutputError, Samples, Tape, Values, relative_floor};
 use crate::program::{Draft, Program};
@@ -22,6 +22,11 @@ pub(super) struct Comparison<'a> {
 }
 
 impl<'a> Comparison<'a> {
+    /// Makes a comparison of what a measure makes small.
+    pub fn by(measure: Measure, samples: &'a Samples) -> Comparison<'a> {
+        Comparison::new(samples, measure == Measure::Max)
+    }
+
     /// Makes a comparison of weighted sums of squares.
     pub(crate) fn by_squares(samples: &'a Samples) -> Comparison<'a> {
         Comparison::new(samples, false)
@@ -52,6 +57,14 @@ impl<'a> Comparison<'a> {
 
     pub fn samples(&self) -> &'a Samples {
         self.samples
+    }
+
+    /// Returns true if an error is no more than the rounding of all outputs.
+    pub fn is_rounding(&self, error: f64) -> bool {
+        match self.by_maximum {
+            true => error <= self.rounding.iter().copied().fold(0.0, f64::max),
+            false => error <= self.rounding.iter().sum(),
+        }
     }
 
     /// Returns a draft's error, with that of each output raised to its rounding; infinite if an

@@ -30,6 +30,9 @@ impl std::ops::Neg for Number {
     }
 }
 
+/// A definition's name, parameters, and the index of its body's first token.
+pub(super) type Definition = (String, Vec<String>, usize);
+
 /// The tokens of a text, read from first to last.
 pub(super) struct Tokens<'a> {
     text: &'a str,
@@ -113,11 +116,11 @@ impl Tokens<'_> {
 
     /// Returns the name, the parameters and the index of the body of the definition that begins
     /// with the next token, if one does: `name(parameter, …) = body`.
-    pub(super) fn definition(&self) -> Option<(String, Vec<String>, usize)> {
+    pub(super) fn definition(&self) -> Option<Definition> {
         self.definition_at(self.next)
     }
 
-    fn definition_at(&self, first: usize) -> Option<(String, Vec<String>, usize)> {
+    fn definition_at(&self, first: usize) -> Option<Definition> {
         let token = |index: usize| self.all.get(index).map(|(_, token)| token);
         let name_at = |index: usize| match token(index) {
             Some(Token::Name(name)) => Some(name.clone()),
@@ -135,7 +138,7 @@ impl Tokens<'_> {
     }
 
     /// Returns all definitions, each with its byte offset.
-    pub(super) fn definitions(&self) -> Vec<(usize, (String, Vec<String>, usize))> {
+    pub(super) fn definitions(&self) -> Vec<(usize, Definition)> {
         let begins = |index: &usize| match index.checked_sub(1) {
             Some(before) => self.all[before].1 == Token::End,
             None => true,
