@@ -1,7 +1,7 @@
 //! The global fit of a program's constants.
 
 use super::differential_evolution::End;
-use super::global::{GlobalSettings, agree};
+use super::global::{Agreement, GlobalSettings};
 use super::round::{Found, Rounds};
 use super::within::rounded_within;
 use super::{Fitter, Measure, Parameter, Range, RangeError};
@@ -71,15 +71,15 @@ pub fn fit_globally(
     let mut rounds = Rounds::new(fitter, program, samples, parameters, measure, &ranges, settings);
     let started = rounds.started(program);
     let mut best: Option<Found> = None;
+    let mut agreement = Agreement::default();
     for round in 0..u64::from(settings.rounds.max(1)) {
         let found = rounds.round(round, program)?;
-        let is_last = rounds.evaluations >= settings.max_evaluations
-            || found.end == End::Deadline
-            || best.as_ref().is_some_and(|best| agree(best.loss, found.loss, found.first_loss));
+        let is_cut = rounds.evaluations >= settings.max_evaluations || found.end == End::Deadline;
+        let agreeing = agreement.add(found.loss, found.first_loss);
         if best.as_ref().is_none_or(|best| found.loss < best.loss) {
             best = Some(found);
         }
-        if is_last {
+        if agreeing >= settings.agreeing || is_cut {
             break;
         }
     }
