@@ -252,4 +252,16 @@ mod tests {
             }
         }
     }
+
+    #[test]
+    fn corners_stay_within_ranges() {
+        let range = Range::new(-1.0, 3.0, Scale::Linear).unwrap();
+        let mut simplex = simplex(&[[0.0, 0.0], [1.0, 0.0], [0.0, 1.0]], |x| x[0] - x[1]);
+        for _ in 0..30 {
+            simplex.step(&[range; 2], &mut |x| x[0] - x[1]);
+            let mut corners = simplex.vertices.iter().flat_map(|vertex| &vertex.at);
+            assert!(corners.all(|x| range.contains(*x)));
+        }
+        assert_eq!(simplex.best(), (&[-1.0, 3.0][..], -4.0));
+    }
 }
