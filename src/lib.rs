@@ -23,7 +23,7 @@
 //! | [`import`], [`export`] | other people's files made datasets; datasets made files for other programs |
 //! | [`grammar`], [`cost`] | what may be written, what it costs on a GPU; their `.ron` files |
 //! | [`eval`] | the data-parallel interpreter, losses, normal equations, scores; the same programs in f64, f16, intervals |
-//! | [`fit`] | error measures; derivatives by constants, Levenberg–Marquardt, the least maximum; constants with few digits; models of one's own |
+//! | [`fit`] | error measures; derivatives by constants, Levenberg–Marquardt, the least maximum; differential evolution, simplices; constants with few digits; models of one's own |
 //! | [`stability`] | verdicts: what is proved of a formula over its whole domain, or refuted |
 //! | [`archive`] | the Pareto archive |
 //! | [`scene`] | what a use needs of a dataset: ranges, fixed inputs, histograms, combined outputs |

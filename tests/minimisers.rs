@@ -238,7 +238,13 @@ fn nan_is_worse_than_any_value_and_all_nan_is_infinite() {
     let half = |x: &[f64]| (x[0] - 1.0).sqrt();
     let minimum = GlobalSettings::default().minimise(&[linear(-9.0, 9.0)], half).unwrap();
     assert!(minimum.value < 1e-2, "{minimum:?}");
+    let evolution = DifferentialEvolution::default();
+    let alone = evolution.minimise(&[linear(-9.0, 9.0)], 1, half).unwrap();
+    assert!(alone.value < 1e-2, "{alone:?}");
     let nowhere = |_: &[f64]| f64::NAN;
+    let few = DifferentialEvolution { max_evaluations: 100, ..evolution };
+    let alone = few.minimise(&[linear(-9.0, 9.0)], 1, nowhere).unwrap();
+    assert_eq!(alone.value, f64::INFINITY);
     let minimum = GlobalSettings::default().minimise(&[linear(-9.0, 9.0)], nowhere).unwrap();
     assert_eq!(minimum.value, f64::INFINITY);
 }
@@ -302,6 +308,9 @@ fn several_starts_find_what_one_misses() {
     let all = from(&starts);
     assert!(problem.is_reached(all.value), "{all:?}");
     assert!(all.evaluations > 10 * from(&starts[..1]).evaluations);
+    // Equal starts have simplices of their own.
+    let twice = [starts[0].clone(), starts[0].clone()];
+    assert_ne!(from(&twice).evaluations, 2 * from(&twice[..1]).evaluations);
 }
 
 #[test]

@@ -3,6 +3,8 @@
 //! `cargo run --release --example minimisers` prints a table of runs. `… list` and `… serve NAME`
 //! are for `results/fit.py`, which runs other libraries' minimisers on the same functions.
 
+// The tests have a use for the rest of it.
+#[allow(dead_code)]
 mod problems;
 mod record;
 
@@ -32,7 +34,8 @@ fn runs() {
         for seed in 1..=SEEDS {
             for strategy in [Strategy::Rand1Bin, Strategy::Best1Bin] {
                 let recorder = Recorder::new(&problem);
-                let evolution = DifferentialEvolution { strategy, ..DifferentialEvolution::default() };
+                let evolution =
+                    DifferentialEvolution { strategy, ..DifferentialEvolution::default() };
                 let minimum = evolution.minimise(&ranges, seed, |x| recorder.value(x));
                 minimum.expect("finite ranges");
                 let rand = strategy == Strategy::Rand1Bin;

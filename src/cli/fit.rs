@@ -9,7 +9,7 @@ use crate::fit::{
     Bound, Fitter, GlobalFit, GlobalSettings, LocalFit, Measure, Parameter, RangeError, Scale,
     fit_globally, fit_model,
 };
-use crate::program::{Draft, Names, Parsed, Program};
+use crate::program::{Draft, FreeConstant, Names, Parsed, Program};
 use crate::run::MemberRecord;
 use crate::search::{Front, FrontMember};
 use crate::suggest::did_you_mean;
@@ -42,7 +42,8 @@ pub struct Args {
     #[arg(long, value_name = "NAME=LOW..HIGH", value_delimiter = ',', value_parser = bounds)]
     #[arg(allow_hyphen_values = true)]
     bounds: Vec<(String, [f32; 2])>,
-    /// Constants to search on a logarithmic scale, as in a,b; they need two positive --bounds
+    /// Constants whose starts and searches are on a logarithmic scale, as in a,b; each needs two
+    /// positive --bounds
     #[arg(long, value_name = "NAME", value_delimiter = ',')]
     log: Vec<String>,
     /// Also search the whole range between bounds, by differential evolution (without bounds: ten
@@ -75,7 +76,17 @@ struct Constants<'a> {
     at_bounds: BTreeMap<&'a str, Bound>,
 }
 
-impl Constants<'_> {
+impl<'a> Constants<'a> {
+    fn new(known: &[&'a str], parameters: &[Parameter], draft: &Draft) -> Constants<'a> {
+        let fitted = || known.iter().copied().zip(parameters);
+        let value = |parameter: &Parameter| draft.consts[parameter.index];
+        let bounds = fitted().map(|(name, parameter)| (name, parameter.bound(value(parameter))));
+        Constants {
+            values: fitted().map(|(name, parameter)| (name, value(parameter))).collect(),
+            at_bounds: bounds.filter_map(|(name, bound)| Some((name, bound?))).collect(),
+        }
+    }
+
     fn line(&self, name: &str, value: f32) -> String {
         let at_bound = match self.at_bounds.get(name) {
             Some(Bound::Lower) => " (at its lower bound)",
@@ -100,23 +111,7 @@ pub fn run(args: &Args, common: &Common) -> Result<(), Failure> {
     let units = output_units(&dataset.outputs);
     let samples = measure.all_samples(&dataset.search, dataset.inputs.len(), &units);
     let mut draft = program.into_draft();
-    let unbounded = free.iter().map(|constant| Parameter::unbounded(constant.index.into()));
-    let mut parameters: Vec<Parameter> = unbounded.collect();
-    for (name, bounds) in &args.bounds {
-        parameters[place(name, &known, "--bounds")?].bounds = *bounds;
-    }
-    for (name, value) in &args.start {
-        draft.consts[parameters[place(name, &known, "--start")?].index] = *value;
-    }
-    for name in &args.log {
-        parameters[place(name, &known, "--log")?].scale = Scale::Logarithmic;
-    }
-    for (parameter, name) in parameters.iter().zip(&known) {
-        let value = &mut draft.consts[parameter.index];
-        parameter.range(*value).map_err(|error| unusable(name, error))?;
-        let [low, high] = parameter.bounds;
-        *value = value.clamp(low, high);
-    }
+    let parameters = parameters(args, &known, &free, &mut draft)?;
     let seed = common.seed();
     let local = fit_model(&mut draft, &samples, &parameters, measure, args.starts, seed);
     let global = match args.global || local.starts_disagree() {
@@ -134,16 +129,35 @@ pub fn run(args: &Args, common: &Common) -> Result<(), Failure> {
     if let Some(global) = global {
         common.note(&remark(local, global, measure, error_of));
     }
-    let constants: BTreeMap<&str, f32> = known
-        .iter()
-        .zip(&parameters)
-        .map(|(name, parameter)| (*name, draft.consts[parameter.index]))
-        .collect();
-    let bound = |parameter: &Parameter| parameter.bound(draft.consts[parameter.index]);
-    let bounds = known.iter().zip(parameters.iter().map(bound));
-    let at_bounds = bounds.filter_map(|(name, bound)| Some((*name, bound?))).collect();
-    let member = draft_member(draft, &dataset, &profile, &names)?;
-    show(measure, common, member, Constants { values: constants, at_bounds }, &names)
+    let constants = Constants::new(&known, &parameters, &draft);
+    show(measure, common, draft_member(draft, &dataset, &profile, &names)?, constants, &names)
+}
+
+/// Returns the constants to fit as the options have them, and sets their starts.
+fn parameters(
+    args: &Args,
+    known: &[&str],
+    free: &[FreeConstant],
+    draft: &mut Draft,
+) -> Result<Vec<Parameter>, Failure> {
+    let unbounded = free.iter().map(|constant| Parameter::unbounded(constant.index.into()));
+    let mut parameters: Vec<Parameter> = unbounded.collect();
+    for (name, bounds) in &args.bounds {
+        parameters[place(name, known, "--bounds")?].bounds = *bounds;
+    }
+    for (name, value) in &args.start {
+        draft.consts[parameters[place(name, known, "--start")?].index] = *value;
+    }
+    for name in &args.log {
+        parameters[place(name, known, "--log")?].scale = Scale::Logarithmic;
+    }
+    for (parameter, name) in parameters.iter().zip(known) {
+        let value = &mut draft.consts[parameter.index];
+        parameter.range(*value).map_err(|error| unusable(name, error))?;
+        let [low, high] = parameter.bounds;
+        *value = value.clamp(low, high);
+    }
+    Ok(parameters)
 }
 
 fn globally(

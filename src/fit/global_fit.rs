@@ -1,8 +1,8 @@
 //! The global fit of a program's constants.
 
 use super::differential_evolution::End;
-use super::global::{GlobalSettings, agree};
-use super::round::{Found, Rounds};
+use super::global::{Agreement, GlobalSettings};
+use super::round::{Found, Search};
 use super::within::rounded_within;
 use super::{Fitter, Measure, Parameter, Range, RangeError};
 use crate::eval::Samples;
@@ -68,22 +68,22 @@ pub fn fit_globally(
     settings: &GlobalSettings,
 ) -> Result<GlobalFit, RangeError> {
     let ranges = ranges_around(program, parameters)?;
-    let mut rounds = Rounds::new(fitter, program, samples, parameters, measure, &ranges, settings);
-    let started = rounds.started(program);
+    let mut search = Search::new(fitter, program, samples, parameters, measure, &ranges, settings);
+    let started = search.started(program);
     let mut best: Option<Found> = None;
+    let mut agreement = Agreement::default();
     for round in 0..u64::from(settings.rounds.max(1)) {
-        let found = rounds.round(round, program)?;
-        let is_last = rounds.evaluations >= settings.max_evaluations
-            || found.end == End::Deadline
-            || best.as_ref().is_some_and(|best| agree(best.loss, found.loss, found.first_loss));
+        let found = search.round(round, program)?;
+        let is_cut = search.evaluations >= settings.max_evaluations || found.end == End::Deadline;
+        let agreeing = agreement.add(found.loss, found.first_loss);
         if best.as_ref().is_none_or(|best| found.loss < best.loss) {
             best = Some(found);
         }
-        if is_last {
+        if agreeing >= settings.agreeing || is_cut {
             break;
         }
     }
-    let (evaluations, sampled) = (rounds.evaluations, rounds.sampled);
+    let (evaluations, sampled) = (search.evaluations, search.sampled);
     let best = best.expect("at least one round");
     let mut fit =
         GlobalFit { loss: started, evaluations, sampled, end: best.end, finish: Finish::Start };

@@ -12,7 +12,7 @@ use crate::eval::Samples;
 use crate::program::{Draft, Program};
 
 /// What the rounds of a fit share, and what they have spent.
-pub(super) struct Rounds<'a> {
+pub(super) struct Search<'a> {
     fitter: &'a mut Fitter,
     verified: Program,
     samples: &'a Samples,
@@ -46,7 +46,7 @@ impl Found {
     }
 }
 
-impl<'a> Rounds<'a> {
+impl<'a> Search<'a> {
     pub fn new(
         fitter: &'a mut Fitter,
         program: &Draft,
@@ -55,8 +55,8 @@ impl<'a> Rounds<'a> {
         measure: Measure,
         ranges: &'a [Range],
         settings: &'a GlobalSettings,
-    ) -> Rounds<'a> {
-        Rounds {
+    ) -> Search<'a> {
+        Search {
             fitter,
             verified: Program::verify(program.clone()).expect("effective code is a program"),
             samples,

@@ -153,6 +153,7 @@ mod tests {
     use super::*;
     use crate::fit::Scale;
     use rand::SeedableRng;
+    use std::collections::BTreeSet;
 
     fn sphere(at: &[f64]) -> f64 {
         at.iter().map(|x| x * x).sum()
@@ -217,22 +218,6 @@ mod tests {
         assert!(reduced.contains(&vec![1.0, 1.0]), "{reduced:?}");
     }
 
-    fn determinant(mut rows: Vec<Vec<f64>>) -> f64 {
-        let mut product = 1.0;
-        for k in 0..rows.len() {
-            let pivot =
-                (k..rows.len()).max_by(|&a, &b| rows[a][k].abs().total_cmp(&rows[b][k].abs()));
-            rows.swap(k, pivot.unwrap());
-            product *= rows[k][k];
-            for below in k + 1..rows.len() {
-                let factor = rows[below][k] / rows[k][k];
-                let pivot = rows[k].clone();
-                rows[below].iter_mut().zip(pivot).for_each(|(cell, above)| *cell -= factor * above);
-            }
-        }
-        product.abs()
-    }
-
     #[test]
     fn first_corners_are_never_coplanar_and_stay_within_ranges() {
         for dimensions in [1, 2, 3, 8] {
@@ -252,14 +237,31 @@ mod tests {
                     .collect();
                 assert_eq!(edges.len(), dimensions);
                 assert!(edges.iter().flatten().all(|edge| edge.abs() <= 1.0), "{edges:?}");
-                // |det| ≥ Π (|aᵢᵢ| − Σ |aᵢⱼ|) > 0 of a diagonally dominant matrix (Ostrowski).
-                let volume = determinant(edges);
-                let least = (0.5f64 - 0.5 * (dimensions as f64 - 1.0) / dimensions as f64)
-                    .powi(dimensions as i32);
-                assert!(volume >= least, "{dimensions} {seed}: {volume}");
+                // A row a dominant element, each in a column of its own: not singular.
+                let mut columns = BTreeSet::new();
+                for edge in &edges {
+                    let sizes = || edge.iter().map(|x| x.abs()).enumerate();
+                    let (own, largest) = sizes().max_by(|a, b| a.1.total_cmp(&b.1)).unwrap();
+                    let all: f64 = sizes().map(|(_, size)| size).sum();
+                    assert!(largest > all - largest, "{dimensions} {seed}: {edge:?}");
+                    columns.insert(own);
+                }
+                assert_eq!(columns.len(), dimensions);
                 let is_inside = |x: &f64| (-1.0..=1.0).contains(x);
                 assert!(simplex.vertices.iter().all(|vertex| vertex.at.iter().all(is_inside)));
             }
         }
+    }
+
+    #[test]
+    fn corners_stay_within_ranges() {
+        let range = Range::new(-1.0, 3.0, Scale::Linear).unwrap();
+        let mut simplex = simplex(&[[0.0, 0.0], [1.0, 0.0], [0.0, 1.0]], |x| x[0] - x[1]);
+        for _ in 0..30 {
+            simplex.step(&[range; 2], &mut |x| x[0] - x[1]);
+            let mut corners = simplex.vertices.iter().flat_map(|vertex| &vertex.at);
+            assert!(corners.all(|x| range.contains(*x)));
+        }
+        assert_eq!(simplex.best(), (&[-1.0, 3.0][..], -4.0));
     }
 }
