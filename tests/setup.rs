@@ -68,16 +68,24 @@ fn goal() -> impl Strategy<Value = Goal> {
         12 => prop::collection::vec(transform.clone(), 0..3),
         1 => prop::collection::vec(transform, 3..5),
     ];
-    let template = prop::sample::select(vec![
-        None,
-        None,
-        Some("y = f(x)*$a; z = f(u)".to_owned()),
-        Some("(y, z) = $M(f(x, u), g(x))".to_owned()),
-        Some("y = f(q)".to_owned()),
-    ]);
-    let cost_of = prop::sample::select(vec![CostOf::Whole, CostOf::Whole, CostOf::Holes]);
-    (measure, requirements, transforms, number(), template, cost_of).prop_map(
-        |(measure, requirements, transforms, max_cost, template, cost_of)| Goal {
+    let text = || {
+        prop::sample::select(vec![
+            "y = f(x)*$a; z = f(u)",
+            "(y, z) = $M(f(x, u), g(x))",
+            "y = f(x, u); z = g(f(x, u))",
+        ])
+    };
+    let template = |text: &str| Some(text.to_owned());
+    let cost_of = || prop::sample::select(vec![CostOf::Whole, CostOf::Holes]);
+    let asked = prop_oneof![
+        12 => transforms.clone().prop_map(|transforms| (transforms, None, CostOf::Whole)),
+        4 => (text(), cost_of()).prop_map(move |(text, of)| (Vec::new(), template(text), of)),
+        // What contradicts itself, or names what is not there.
+        1 => (transforms, cost_of())
+            .prop_map(move |(transforms, of)| (transforms, template("y = f(q)"), of)),
+    ];
+    (measure, requirements, asked, number()).prop_map(
+        |(measure, requirements, (transforms, template, cost_of), max_cost)| Goal {
             measure,
             requirements,
             transforms,
