@@ -29,6 +29,7 @@
 //! | [`scene`] | what a use needs of a dataset: ranges, fixed inputs, histograms, combined outputs |
 //! | [`truth`] | functions that can be evaluated anywhere; where they are sampled, on grids or by a mesh that follows a search; errors over a whole domain |
 //! | [`search`] | problems and methods, islands, variation, fronts |
+//! | [`project`] | models' parameters, point by point |
 //! | [`emit`] | formulas as HLSL, WGSL, GLSL, MSL, Slang, and back; as C, Rust, Python, LaTeX |
 //! | [`wording`] | fronts, verdicts and examinations in words |
 //! | [`shader`] | functions of shaders as truths: read, interpreted, written down as formulas |
@@ -109,6 +110,8 @@ pub mod scene;
 pub mod truth;
 
 pub mod search;
+
+pub mod project;
 
 pub mod emit;
 pub mod wording;

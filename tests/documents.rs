@@ -171,7 +171,8 @@ fn fault(words: &[String]) -> Option<String> {
 
 /// What is wrong with a command's formula, if it has one.
 fn formula_fault(words: &[String]) -> Option<String> {
-    let takes_formula = ["eval", "cost", "check", "fit", "specialize"].contains(&&*words[0]);
+    let takes_formula =
+        ["eval", "cost", "check", "fit", "project", "specialize"].contains(&&*words[0]);
     let formula = words.get(1).filter(|word| takes_formula && word.contains('='))?;
     parse_template(formula, Scope::Open { outputs: &[] }).err().map(|error| error.to_string())
 }

@@ -2,7 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
-const LAYERS: [&str; 30] = [
+const LAYERS: [&str; 31] = [
     "deadline",
     "file",
     "printable",
@@ -25,6 +25,7 @@ const LAYERS: [&str; 30] = [
     "scene",
     "truth",
     "search",
+    "project",
     "emit",
     "wording",
     "shader",

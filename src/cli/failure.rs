@@ -5,7 +5,7 @@ use crate::grammar::FileError;
 use crate::import::array;
 use crate::run::{FollowError, Incompatible, RecordError, SubjectError};
 use crate::search::SetupError;
-use crate::{dataset, import, program, report, scene, targets};
+use crate::{dataset, import, program, project, report, scene, targets};
 use std::io::ErrorKind;
 use std::path::Path;
 use std::process::ExitCode;
@@ -200,6 +200,17 @@ impl From<SetupError> for Failure {
 impl From<program::ParseError> for Failure {
     fn from(error: program::ParseError) -> Failure {
         Failure::new(Exit::Input, error)
+    }
+}
+
+impl From<project::Error> for Failure {
+    fn from(error: project::Error) -> Failure {
+        match error {
+            project::Error::Formula(error) => error.into(),
+            project::Error::Dataset(error) => error.into(),
+            error if error.is_usage() => Failure::new(Exit::Usage, error),
+            error => Failure::new(Exit::Input, error),
+        }
     }
 }
 

@@ -236,7 +236,7 @@ fn place(name: &str, known: &[&str], option: &str) -> Result<usize, Failure> {
     })
 }
 
-fn start(text: &str) -> Result<(String, f32), String> {
+pub(super) fn start(text: &str) -> Result<(String, f32), String> {
     let wanted = "give NAME=NUMBER, as in a=2.5";
     let (name, value) = text.split_once('=').ok_or(wanted)?;
     let value: f32 = value.parse().map_err(|_| wanted)?;
@@ -244,7 +244,7 @@ fn start(text: &str) -> Result<(String, f32), String> {
     if value.is_finite() { Ok((name, value)) } else { Err("a start must be finite".into()) }
 }
 
-fn bounds(text: &str) -> Result<(String, [f32; 2]), String> {
+pub(super) fn bounds(text: &str) -> Result<(String, [f32; 2]), String> {
     let wanted = "give NAME=LOW..HIGH, as in a=0..4, a=..1 or a=0..";
     let (name, range) = text.split_once('=').ok_or(wanted)?;
     let (low, high) = range.split_once("..").ok_or(wanted)?;

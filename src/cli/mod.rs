@@ -23,6 +23,7 @@ mod merge;
 mod output;
 mod plan;
 mod progress;
+mod project;
 mod pruning;
 mod refusals;
 mod render;
@@ -105,6 +106,7 @@ enum Command {
     Analyze(analyze::Args),
     Merge(merge::Args),
     Fit(fit::Args),
+    Project(Box<project::Args>),
     Scene(scene::Args),
     Specialize(specialize::Args),
     Generate(generate::Args),
@@ -129,6 +131,7 @@ impl Command {
             Command::Analyze(args) => analyze::run(args, common),
             Command::Merge(args) => merge::run(args, common),
             Command::Fit(args) => fit::run(args, common),
+            Command::Project(args) => project::run(args, common),
             Command::Scene(args) => scene::run(args, common),
             Command::Specialize(args) => specialize::run(args, common),
             Command::Generate(args) => generate::run(args, common),

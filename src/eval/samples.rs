@@ -93,6 +93,28 @@ impl Samples {
         }
     }
 
+    /// Returns these samples with further outputs, whose target is 0, and which count at the first
+    /// sample alone: for what is to be small beside the errors.
+    pub(crate) fn with_outputs(&self, more: usize) -> Samples {
+        let [inputs, outputs] = [self.inputs, self.outputs];
+        let nothing = vec![Block([0.0; BLOCK]); more * self.blocks];
+        let mut once = nothing.clone();
+        once.iter_mut().step_by(self.blocks).for_each(|first| first.0[0] = 1.0);
+        let columns = |first: usize, last: usize| {
+            self.values.get(first * self.blocks..last * self.blocks).unwrap_or_default()
+        };
+        let mut values = columns(0, inputs + outputs).to_vec();
+        values.extend(&nothing);
+        values.extend(columns(inputs + outputs, inputs + 2 * outputs));
+        values.extend(&once);
+        let dead_zones = columns(inputs + 2 * outputs, inputs + 3 * outputs);
+        if !dead_zones.is_empty() {
+            values.extend(dead_zones);
+            values.extend(&nothing);
+        }
+        Samples { outputs: outputs + more, values, ..self.clone() }
+    }
+
     /// Returns the number of samples.
     pub fn rows(&self) -> usize {
         self.rows

@@ -63,3 +63,4 @@ pub use range::{Range, RangeError, Scale};
 pub use rounding::rounding_errors;
 pub use shorten::shorten;
 pub(crate) use shorten::shorten_free;
+pub(crate) use within::squares_within;

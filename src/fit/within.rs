@@ -9,7 +9,7 @@ use crate::program::Draft;
 const TO_CONVERGENCE: Stop = Stop { max_steps: 500, min_gain: 1e-10 };
 
 /// Fits parameters by least squares, and returns the loss.
-pub(super) fn squares_within(
+pub(crate) fn squares_within(
     fitter: &mut Fitter,
     program: &mut Draft,
     samples: &Samples,

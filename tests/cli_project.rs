@@ -1,0 +1,138 @@
+//! `lgp project` on the real command line: data in, parameters and pictures out, what is refused.
+
+#![cfg(feature = "cli")]
+
+mod command;
+
+use command::{command, lgp, succeed, text};
+use serde_json::Value;
+use std::path::Path;
+use std::process::Stdio;
+use std::time::{Duration, Instant};
+use tempfile::TempDir;
+
+const MODEL: &str = "y = $p*exp2(-$q*x^2)";
+
+/// A folder with the samples of a lobe.
+fn lobe(points: &str) -> TempDir {
+    let folder = TempDir::new().unwrap();
+    let formula = "y = (0.5 + alpha*size)*exp2(-(1 + 8*alpha^2)*x^2)";
+    let domain = "x=0..1,alpha=0.1..1,size=0..1";
+    let generate = ["generate", "--formula", formula, "--domain", domain, "--points", points];
+    succeed(folder.path(), &[&generate[..], &["-o", "lobe.bin"]].concat());
+    folder
+}
+
+fn project(folder: &Path, options: &[&str]) -> (Option<i32>, String, String) {
+    let output = lgp(folder, &[&["project"], options].concat());
+    (output.status.code(), text(&output.stdout), text(&output.stderr))
+}
+
+#[test]
+fn parameters_are_searched_for_formulas() {
+    let folder = lobe("12");
+    let folder = folder.path();
+    let words = [MODEL, "lobe.bin", "--over", "alpha,size", "-o", "params.bin", "--json"];
+    let (code, found, said) = project(folder, &words);
+    assert_eq!(code, Some(0), "{said}");
+    let found: Value = serde_json::from_str(&found).unwrap();
+    assert_eq!((&found["groups"], &found["grid"]), (&196.into(), &serde_json::json!([14, 14])));
+    assert!(!folder.join("params.bin.part").exists());
+    let about = succeed(folder, &["info", "params.bin"]);
+    assert!(about.contains("grid 14×14") && about.contains("residual"), "{about}");
+    let search = ["search", "params.bin", "--outputs", "p", "--generations", "6", "--islands", "2"];
+    let front = succeed(folder, &[&search[..], &["--max-cost", "3", "--quiet"]].concat());
+    assert!(front.contains("p = alpha*size + 0.5"), "{front}");
+}
+
+#[test]
+fn what_cannot_be_projected_is_refused_with_the_reason() {
+    let folder = lobe("6");
+    let folder = folder.path();
+    let refused = |model: &str, options: &[&str], code: i32, reason: &str| {
+        let words = [&[model, "lobe.bin", "-o", "params.bin"], options].concat();
+        let (found, _, said) = project(folder, &words);
+        assert_eq!(found, Some(code), "{words:?}: {said}");
+        assert!(said.contains(reason), "{words:?}: {said}");
+        assert!(!folder.join("params.bin").exists());
+    };
+    let over = ["--over", "alpha,size"];
+    refused(MODEL, &["--over", "alhpa"], 2, "did you mean `alpha`?");
+    refused(MODEL, &["--over", "y"], 2, "no input is called so");
+    refused(MODEL, &["--over", "x,alpha,size"], 2, "names every input");
+    refused(MODEL, &["--over", "alpha,alpha"], 2, "given twice");
+    refused(MODEL, &[], 2, "--over");
+    refused("y = $p*z", &over, 3, "unknown name `z`");
+    refused("w = $p*x", &over, 3, "w");
+    refused("y = x^2", &over, 2, "no parameter");
+    refused("y = $p*x; z = $q", &over, 2, "");
+    refused("t = $q*x; y = $p*x", &over, 2, "no output depends on $q");
+    refused("y = $p*x + 0*$q", &over, 3, "no output changes with $q in any group");
+    refused("y = $p*f(x, alpha)", &over, 2, "calls f(x, alpha), which it does not define");
+    refused("y = $alpha*x", &over, 2, "cannot be called `alpha`");
+    refused("y = $residual*x", &over, 2, "cannot be called `residual`");
+    refused(MODEL, &["--over", "alpha", "--bounds", "r=0..1"], 2, "no parameter $r");
+    refused(MODEL, &["--over", "alpha", "--log", "p"], 2, "$p: -inf to inf has no logarithmic");
+    refused(MODEL, &["--over", "alpha", "--smooth", "-1"], 2, "--smooth -1");
+    refused(MODEL, &["--over", "alpha", "--loss", "max"], 2, "minimises squares; max is none");
+    refused("y = log2(-$p^2 - 1)*x", &over, 3, "finite in too few of the");
+    refused("y = $p*x", &["--over", "alpha", "-o", "nowhere/p.bin"], 2, "");
+    let table: String = (0..40).map(|i| format!("{i},{},{}\n", i * i, 3 * i)).collect();
+    std::fs::write(folder.join("t.csv"), format!("a,x,y\n{table}")).unwrap();
+    succeed(folder, &["import", "t.csv", "-o", "t.bin", "--inputs", "2"]);
+    let words = ["y = $p*x + $q", "t.bin", "--over", "a", "-o", "params.bin"];
+    let (code, _, said) = project(folder, &words);
+    assert_eq!(code, Some(3), "{said}");
+    assert!(
+        said.contains(
+            "groups have fewer values than the model has parameters (1 at most, 2 needed)"
+        )
+    );
+}
+
+#[cfg(unix)]
+#[test]
+fn an_interrupted_projection_goes_on_to_the_same_bytes() {
+    let folder = lobe("40");
+    let folder = folder.path();
+    // Enough for a second or so.
+    let model = "y = $p*exp2(-$q*x^2) + $r*sin($s*x)";
+    let words = [
+        "project",
+        model,
+        "lobe.bin",
+        "--over",
+        "alpha,size",
+        "--bounds",
+        "s=0..40",
+        "--threads",
+        "1",
+    ];
+    succeed(folder, &[&words[..], &["-o", "whole.bin"]].concat());
+    let begun = [&words[..], &["-o", "cut.bin"]].concat();
+    let part = folder.join("cut.bin.part");
+    let mut process = command(folder, &begun).stderr(Stdio::piped()).spawn().unwrap();
+    std::thread::sleep(Duration::from_millis(300));
+    let kill =
+        std::process::Command::new("kill").args(["-INT", &process.id().to_string()]).status();
+    assert!(kill.unwrap().success());
+    let waited = Instant::now();
+    let status = process.wait().unwrap();
+    assert!(waited.elapsed() < Duration::from_secs(20));
+    assert_eq!(status.code(), Some(130), "it was too fast to be interrupted");
+    assert!(part.is_file() && !folder.join("cut.bin").exists());
+    let output = lgp(folder, &begun);
+    assert_eq!(output.status.code(), Some(2));
+    assert!(text(&output.stderr).contains("--resume goes on with it"), "{}", text(&output.stderr));
+    let other = [&begun[..], &["--resume", "--smooth", "1"]].concat();
+    let output = lgp(folder, &other);
+    assert_eq!(output.status.code(), Some(3), "{}", text(&output.stderr));
+    assert!(text(&output.stderr).contains("of another projection"), "{}", text(&output.stderr));
+    succeed(folder, &[&begun[..], &["--resume"]].concat());
+    assert!(!part.exists());
+    let csv = |name: &str| succeed(folder, &["export", name, "-o", &format!("{name}.csv")]);
+    csv("whole.bin");
+    csv("cut.bin");
+    let read = |name: &str| std::fs::read(folder.join(name)).unwrap();
+    assert!(read("whole.bin.csv") == read("cut.bin.csv"));
+}
