@@ -226,7 +226,7 @@ fn percent(share: f64) -> String {
 }
 
 /// Writes a path so that a shell reads it as one word.
-fn quoted(path: &str) -> String {
+pub(super) fn quoted(path: &str) -> String {
     let plain = |c: char| c.is_alphanumeric() || "/._-+:".contains(c);
     match !path.is_empty() && path.chars().all(plain) {
         true => path.to_owned(),

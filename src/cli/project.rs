@@ -1,5 +1,6 @@
 //! `lgp project`: the parameters of a model, point by point.
 
+use super::explore::quoted;
 use super::fit::{bounds, start};
 use super::output::{check_writable, save, to_stderr};
 use super::{Common, Exit, Failure, interrupts};
@@ -7,7 +8,8 @@ use crate::dataset::{Dataset, LARGEST_FILE};
 use crate::deadline::Deadline;
 use crate::file::{read_file, remove_file, replace_file};
 use crate::fit::Measure;
-use crate::project::{Projection, Settings, State, Surfaces};
+use crate::project::{self, Projection, Settings, State, Surfaces};
+use crate::report::{ProjectionReport, findings};
 use serde::Serialize;
 use std::io::ErrorKind;
 use std::path::{Path, PathBuf};
@@ -58,6 +60,14 @@ pub struct Args {
     /// neighbours disagree
     #[arg(long)]
     global: bool,
+    /// The folder to write pictures and a page (report.html) to [default: that of the output, with
+    /// `_report` in place of the extension]
+    #[arg(long, value_name = "DIR")]
+    report: Option<PathBuf>,
+    /// A place at which the error is drawn over the parameters, as in alpha=0.3,size=0.1; can be
+    /// given several times [default: the middle, and where the residual is largest]
+    #[arg(long, value_name = "A=X,B=Y", value_parser = place)]
+    surface: Vec<Vec<(String, f32)>>,
     /// Go on with what an interrupted projection has left beside the output, with the same options
     #[arg(long)]
     resume: bool,
@@ -73,6 +83,8 @@ struct Projected {
     parameters: Vec<Range>,
     rmse: f64,
     notes: Vec<String>,
+    findings: Vec<String>,
+    commands: Vec<String>,
     seconds: f64,
 }
 
@@ -100,6 +112,8 @@ pub fn run(args: &Args, common: &Common) -> Result<(), Failure> {
         seed: common.seed(),
     };
     let projection = Projection::new(&data, &args.template, &args.over, settings)?;
+    let folder = args.report.clone().unwrap_or_else(|| folder_beside(&args.output));
+    check_places(args)?;
     let surfaces = fitted(args, common, &projection)?;
     for note in &surfaces.notes {
         common.note(&format!("note: {note}"));
@@ -107,8 +121,68 @@ pub fn run(args: &Args, common: &Common) -> Result<(), Failure> {
     let dataset = save(surfaces.dataset(&projection)?, &args.output)?;
     let part = part_of(&args.output);
     remove_file(&part).map_err(|error| Failure::unwritable(&part, error))?;
-    let projected = Projected::of(args, &projection, surfaces, &dataset, begun.elapsed());
-    common.summary(&projected, &projected.text())
+    let commands = commands(args, &projection, &data);
+    write_report(args, &projection, &surfaces, &commands, &folder)?;
+    let projected = Projected::of(args, &projection, surfaces, &dataset, commands, begun.elapsed());
+    common.summary(&projected, &projected.text(&folder))
+}
+
+/// Refuses places that are not of the inputs, before anything is computed.
+fn check_places(args: &Args) -> Result<(), Failure> {
+    for (name, _) in args.surface.iter().flatten() {
+        if !args.over.contains(name) {
+            let over = args.over.join(", ");
+            return Err(project::Error::UnknownPlace { name: name.clone(), over }.into());
+        }
+    }
+    Ok(())
+}
+
+fn write_report(
+    args: &Args,
+    projection: &Projection,
+    surfaces: &Surfaces,
+    commands: &[String],
+    folder: &Path,
+) -> Result<(), Failure> {
+    let mut places = Vec::new();
+    for asked in &args.surface {
+        places.push(surfaces.nearest(asked)?);
+    }
+    if places.is_empty() {
+        places = vec![surfaces.nearest(&[])?, surfaces.worst()];
+    }
+    std::fs::create_dir_all(folder).map_err(|error| Failure::unwritable(folder, error))?;
+    let report = ProjectionReport { projection, surfaces, places, commands: commands.to_vec() };
+    Ok(report.write(folder)?)
+}
+
+/// Returns the folder of the report, beside the output.
+fn folder_beside(output: &Path) -> PathBuf {
+    let stem = output.file_stem().unwrap_or_default().to_string_lossy();
+    output.with_file_name(format!("{stem}_report"))
+}
+
+/// Returns the command lines to go on with: a search for each parameter, and one for all together
+/// in the model.
+fn commands(args: &Args, projection: &Projection, data: &Dataset) -> Vec<String> {
+    let model = projection.model();
+    let path = quoted(&args.output.display().to_string());
+    let each = model.labels().iter().map(|label| format!("lgp search {path} --outputs {label}"));
+    let template = model.with_functions(&args.over, &data.names());
+    let whole = template.map(|template| {
+        let outputs = match model.outputs() == data.names().outputs {
+            true => String::new(),
+            false => format!(" --outputs {}", model.outputs().join(",")),
+        };
+        let data = quoted(&args.dataset.display().to_string());
+        format!("lgp search {data}{outputs} --template \"{template}\"")
+    });
+    each.chain(whole).collect()
+}
+
+fn place(text: &str) -> Result<Vec<(String, f32)>, String> {
+    text.split(',').map(start).collect()
 }
 
 /// Fits all groups, from where an interrupted projection stopped.
@@ -189,6 +263,7 @@ impl Projected {
         projection: &Projection,
         surfaces: Surfaces,
         dataset: &Dataset,
+        commands: Vec<String>,
         time: Duration,
     ) -> Projected {
         let parameter = |(place, name): (usize, &String)| {
@@ -208,26 +283,29 @@ impl Projected {
             validation_groups: dataset.validation.rows(),
             parameters: surfaces.labels.iter().enumerate().map(parameter).collect(),
             rmse: surfaces.rmse(),
+            findings: findings(projection, &surfaces, &projection.dependences(&surfaces)),
+            commands,
             grid: surfaces.grid,
             notes: surfaces.notes,
             seconds: time.as_secs_f64(),
         }
     }
 
-    fn text(&self) -> String {
+    fn text(&self, folder: &Path) -> String {
         let Projected { path, groups, validation_groups, rmse, seconds, .. } = self;
         let path = path.display();
         let mut text = format!(
             "{path}: {groups} groups ({validation_groups} validate), RMSE {rmse:.3e} over all, in {seconds:.1} s\n"
         );
-        for Range { name, least, most, at_lower_bound, at_upper_bound } in &self.parameters {
-            let mut bounds = String::new();
-            for (count, bound) in [(at_lower_bound, "lower"), (at_upper_bound, "upper")] {
-                if *count > 0 {
-                    bounds += &format!(", in {count} groups at its {bound} bound");
-                }
-            }
-            text += &format!("{name:>8}: {least} to {most}{bounds}\n");
+        for Range { name, least, most, .. } in &self.parameters {
+            text += &format!("{name:>8}: {least} to {most}\n");
+        }
+        for finding in &self.findings {
+            text += &format!("{finding}\n");
+        }
+        text += &format!("\nPictures and a page: {}\nTo go on:\n", folder.display());
+        for command in &self.commands {
+            text += &format!("  {command}\n");
         }
         text
     }

@@ -54,8 +54,10 @@
 //! ```
 
 mod bench;
+mod dependence;
 mod error;
 mod groups;
+mod landscape;
 mod layout;
 mod model;
 mod penalty;
@@ -65,7 +67,9 @@ mod state;
 mod surfaces;
 mod work;
 
+pub use dependence::Dependence;
 pub use error::Error;
+pub use landscape::Landscape;
 pub use model::Model;
 pub use projection::Projection;
 pub use state::State;

@@ -22,7 +22,8 @@ pub struct Projection {
     pub(super) layout: Layout,
     pub(super) measure: Measure,
     stages: Vec<Stage>,
-    variance: f64,
+    /// Of the outputs, in their units.
+    pub(super) variance: f64,
     key: String,
 }
 

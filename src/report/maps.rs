@@ -73,7 +73,7 @@ pub fn axes(dataset: &Dataset) -> String {
     }
 }
 
-const PANEL: usize = 200;
+pub(super) const PANEL: usize = 200;
 const GAP: usize = 10;
 const SIDE: usize = 24;
 const HEADING: usize = 84;
@@ -157,7 +157,12 @@ fn scales(low: f32, high: f32) -> [(&'static str, [f32; 2]); 2] {
 }
 
 /// Draws a scale of colours with the values at its ends.
-fn bar(raster: &mut Raster, (left, top): (usize, usize), [low, high]: [f32; 2], inks: &Inks) {
+pub(super) fn bar(
+    raster: &mut Raster,
+    (left, top): (usize, usize),
+    [low, high]: [f32; 2],
+    inks: &Inks,
+) {
     for x in 0..PANEL {
         for y in 0..10 {
             raster.blend(left + x, top + y, viridis(x as f32 / (PANEL - 1) as f32), 1.0);
@@ -173,7 +178,7 @@ fn bar(raster: &mut Raster, (left, top): (usize, usize), [low, high]: [f32; 2], 
 }
 
 /// Formats three significant digits, without zeros at the end.
-fn end_text(value: f32) -> String {
+pub(super) fn end_text(value: f32) -> String {
     format_constant(format!("{value:.2e}").parse().unwrap_or(value))
 }
 
@@ -194,7 +199,7 @@ fn panel(
 
 /// Returns a colour of Viridis (van der Walt and Smith, 2015), from ninths with linear
 /// interpolation; grey if `place` is not finite.
-fn viridis(place: f32) -> Colour {
+pub(super) fn viridis(place: f32) -> Colour {
     const STOPS: [Colour; 10] = [
         [0x44, 0x01, 0x54],
         [0x48, 0x28, 0x78],

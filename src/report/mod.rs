@@ -25,6 +25,7 @@ mod model;
 pub mod page;
 mod pictures;
 pub mod plot;
+mod projection;
 mod raster;
 pub mod spheres;
 mod timing;
@@ -33,6 +34,7 @@ pub use comparison::comparison;
 pub use drawing::{Drawing, ROUGHNESSES, SIZE};
 pub use error::Error;
 pub use pictures::write_plots;
+pub use projection::{PICTURES, ProjectionReport, findings};
 pub use timing::Timing;
 
 use crate::dataset::Dataset;

@@ -7,6 +7,7 @@
 mod compare;
 mod lookup;
 mod policy;
+pub(super) mod projection;
 mod samples;
 mod spheres;
 mod template;
