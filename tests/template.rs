@@ -91,6 +91,18 @@ fn holes_over_the_same_arguments_share_a_draft_and_others_do_not_read_theirs() {
 }
 
 #[test]
+fn a_hole_has_as_many_values_as_what_an_operation_makes_of_it() {
+    let template = template(
+        "(u, v) = sqrt(max(f(x, r), 0)); (p, q, t) = saturate($M(x, r)); y = u*v + p + q + t",
+    );
+    assert_eq!(template.hole("f").unwrap().outputs().len(), 2);
+    assert!(template.hole("M32").is_some(), "three rows of two");
+    let mut deep = "(u, v) = ".to_owned() + &"sqrt(".repeat(5000) + "f(x)" + &")".repeat(5000);
+    deep += "; y = u*v";
+    assert!(refused(&deep).contains("nested more than"), "and no stack overflows");
+}
+
+#[test]
 fn what_is_no_template_is_refused_with_the_reason() {
     for (text, reason) in [
         ("y = f(x) + q", "unknown name `q`"),

@@ -23,7 +23,7 @@ const MAX_CALLS: usize = 20_000;
 
 impl Parser<'_> {
     /// Parses an expression of which so many components are wanted: a hole or a matrix that is all
-    /// of it has as many.
+    /// of it, or of an argument of the operation that is all of it, has as many.
     pub(super) fn wanting(&mut self, width: usize) -> Parse<Value> {
         let at = self.tokens.offset();
         if width > 1 && self.tokens.after_call().is_some() {
@@ -32,9 +32,9 @@ impl Parser<'_> {
                     self.tokens.skip(2);
                     return self.matrix(&name, at, Some(width));
                 }
-                Some(Token::Name(name)) if self.is_hole(&name) => {
+                Some(Token::Name(name)) => {
                     self.tokens.skip(2);
-                    return self.hole(&name, at, width);
+                    return self.nested(|parser| parser.call(&name, at, width));
                 }
                 _ => {}
             }
@@ -48,8 +48,8 @@ impl Parser<'_> {
             && functions::names().all(|known| known != name)
     }
 
-    /// Parses the rest of a call, from its arguments on.
-    pub(super) fn call(&mut self, name: &str, at: usize) -> Parse<Value> {
+    /// Parses the rest of a call, from its arguments on, of which so many components are wanted.
+    pub(super) fn call(&mut self, name: &str, at: usize, width: usize) -> Parse<Value> {
         if let "add" | "sub" | "mul" | "div" | "neg" = name {
             let message = format!("`{name}` has no function form; write + - * /");
             return self.tokens.error(at, message);
@@ -61,7 +61,7 @@ impl Parser<'_> {
             return self.written_function(name, at);
         }
         if self.is_hole(name) {
-            return self.hole(name, at, 1);
+            return self.hole(name, at, width);
         }
         let Some(function) = Function::find(name) else {
             let mut known: Vec<&str> = functions::names().collect();
@@ -69,7 +69,7 @@ impl Parser<'_> {
             let hint = did_you_mean(name, known);
             return self.tokens.error(at, format!("unknown operation `{name}`{hint}"));
         };
-        let args = self.arguments()?;
+        let args = self.arguments(width)?;
         let function = function.of_arguments(args.len());
         self.check_count(name, at, args.len(), function.arity())?;
         match function {
@@ -93,10 +93,11 @@ impl Parser<'_> {
         self.tokens.error(at, message)
     }
 
-    fn arguments(&mut self) -> Parse<Vec<Value>> {
-        let mut args = vec![self.expression()?];
+    /// Parses arguments, of each of which so many components are wanted.
+    fn arguments(&mut self, width: usize) -> Parse<Vec<Value>> {
+        let mut args = vec![self.wanting(width)?];
         while self.tokens.take_symbol(',') {
-            args.push(self.expression()?);
+            args.push(self.wanting(width)?);
         }
         self.tokens.expect(')', "after the arguments")?;
         Ok(args)
@@ -113,7 +114,7 @@ impl Parser<'_> {
                 self.tokens.expect(')', "after the arguments")?;
                 vec![only]
             }
-            false => self.arguments()?,
+            false => self.arguments(1)?,
         };
         if let [vector] = args.as_slice()
             && parameters.len() > 1
@@ -170,7 +171,7 @@ impl Parser<'_> {
             return self.tokens.error(at, message);
         }
         let named = self.tokens.names_of_arguments();
-        let args = self.arguments()?;
+        let args = self.arguments(1)?;
         let components_of_arguments = self.tokens.placed(at, common_width(&args))?;
         let (calls, values) = match components_of_arguments {
             1 => (1, width),
@@ -187,11 +188,11 @@ impl Parser<'_> {
     /// Parses the arguments of a matrix of free constants, whose entries are called by row and
     /// column, and returns its product with them; it is square unless so many rows are wanted.
     pub(super) fn matrix(&mut self, name: &str, at: usize, rows: Option<usize>) -> Parse<Value> {
-        let vector = self.arguments()?.concat();
+        let vector = self.arguments(1)?.concat();
         let rows = rows.unwrap_or(vector.len());
         if vector.len() < 2 || rows > MAX_WIDTH || vector.len() > MAX_WIDTH {
             let message = format!(
-                "a matrix, as `${name}(x, y)`, takes 2 to {MAX_WIDTH} values; `${name}*x` is a product"
+                "a matrix, as `${name}(x, y)`, takes 2 to {MAX_WIDTH} values; `${name}*x` is a product, and `f((x, y))` has a value for each of x, y"
             );
             return self.tokens.error(at, message);
         }

@@ -161,7 +161,7 @@ impl Parser<'_> {
     }
 
     /// Counts the depth: every nesting passes through here.
-    pub(super) fn nested(&mut self, parse: fn(&mut Self) -> Parse<Value>) -> Parse<Value> {
+    pub(super) fn nested(&mut self, parse: impl FnOnce(&mut Self) -> Parse<Value>) -> Parse<Value> {
         if self.depth == MAX_DEPTH {
             return self.tokens.error(
                 self.tokens.offset(),
@@ -271,7 +271,7 @@ impl Parser<'_> {
                 Ok(vec![self.tokens.placed(at, self.definitions.free_constant(name, None))?])
             }
             Token::Symbol('(') => self.parenthesised(),
-            Token::Name(name) if self.tokens.take_symbol('(') => self.call(&name, at),
+            Token::Name(name) if self.tokens.take_symbol('(') => self.call(&name, at, 1),
             Token::Name(name) => self.name(name, at),
             Token::Symbol(symbol) => {
                 self.tokens.error(at, format!("expected a value, found `{symbol}`"))
