@@ -51,6 +51,7 @@
 //! | dataset, search split, validation split | columns of samples; the rows that formulas are fitted to; other rows, denser, with the domain's edges, that decide about a front |
 //! | dead zone | the error of a sample that nobody sees and that therefore does not count |
 //! | outer form, hole, child | a function around what is searched ([`program::Outer`]); a value in it that a formula is to be found for; the draft that is varied and fills the holes |
+//! | template, shape | a formula that is known but for its holes and free constants ([`program::Template`]); what each value of a child may read |
 //! | offspring, mutation, crossover, immigrant | what variation makes of a parent; a random change of it; a piece of another parent; a random draft in place of offspring |
 //! | individual, population, bucket, selection | a fitted child; an island's individuals, the best few at each cost; those of one cost; the choice of parents by rank in a bucket |
 //! | island, migration, barrier | a population that evolves by itself; its best going on to the next island; the end of a generation, where that happens |

@@ -169,3 +169,8 @@ fn a_search_that_replaces_another_and_is_killed_leaves_one_of_them() {
     let first = format!("{SHORT} --generations 1");
     killed(&[&first], &format!("{SHORT} --generations 2 --seed 2 --force"));
 }
+
+#[test]
+fn a_search_with_a_template_that_is_killed_leaves_what_is_whole() {
+    killed(&[], &format!("{SHORT} --template y=f(x)*$a+1 --generations 2"));
+}

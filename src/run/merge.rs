@@ -1,11 +1,11 @@
 //! The union of runs: associative, commutative and idempotent, so that any scheduler can spread
 //! seeds over machines and merge what comes back, in any order.
 
-use super::Run;
+use super::{Run, one_line};
 use crate::cost::Profile;
 use crate::fit::Measure;
 use crate::grammar::Grammar;
-use crate::search::Front;
+use crate::search::{CostOf, Front};
 use std::collections::BTreeMap;
 
 /// Runs that have no union.
@@ -22,8 +22,9 @@ pub struct Incompatible {
 ///
 /// # Errors
 /// Runs of other data, scenes, columns, claims, grammars, GPU profiles, error measures or
-/// requirements. (Settings of where to look, such as transforms, may differ: their formulas are as
-/// good.)
+/// requirements, or of which one costs a template's holes alone. (Settings of where to look, such as
+/// transforms or templates, may differ: their formulas are as good. Of several templates none is
+/// the union's, whose members then show the whole alone.)
 pub fn merge(runs: Vec<(Run, Front)>) -> Result<Option<(Run, Front)>, Incompatible> {
     let mut sources = Vec::new();
     let mut members = Vec::new();
@@ -39,7 +40,11 @@ pub fn merge(runs: Vec<(Run, Front)>) -> Result<Option<(Run, Front)>, Incompatib
     for other in &sources[1..] {
         check(first, other)?;
     }
-    Ok(Some((union(sources), Front::from_members(members, measure))))
+    let union = union(sources);
+    if union.goal.template.is_none() {
+        members.iter_mut().for_each(|member| member.holes.clear());
+    }
+    Ok(Some((union, Front::from_members(members, measure))))
 }
 
 fn check(one: &Run, other: &Run) -> Result<(), Incompatible> {
@@ -52,6 +57,10 @@ fn check(one: &Run, other: &Run) -> Result<(), Incompatible> {
         Some(scene) => format!("{} ({})", scene.name, scene.summary()),
         None => "none".to_owned(),
     };
+    let costed = |run: &Run| match (run.goal.cost_of, &run.goal.template) {
+        (CostOf::Holes, Some(template)) => format!("of the holes of `{}`", one_line(template)),
+        _ => "of the whole formula".to_owned(),
+    };
     if one.scene != other.scene {
         return Err(Incompatible { what: "scene", one: scene(one), other: scene(other) });
     }
@@ -63,6 +72,8 @@ fn check(one: &Run, other: &Run) -> Result<(), Incompatible> {
         ("requirements", one.requirements(), other.requirements()),
         ("grammar", grammars[0].clone(), grammars[1].clone()),
         ("GPU profile", profiles[0].clone(), profiles[1].clone()),
+        ("costs", costed(one), costed(other)),
+        ("derived outputs", one.derived.join("; "), other.derived.join("; ")),
         ("error measure", one.goal.measure.to_string(), other.goal.measure.to_string()),
     ];
     match differences.into_iter().find(|(_, one, other)| one != other) {
@@ -108,6 +119,9 @@ fn union(mut sources: Vec<Run>) -> Run {
     sources.sort_by_cached_key(key);
     sources.dedup();
     let mut union = Run { command: vec!["lgp".into(), "merge".into()], ..sources[0].clone() };
+    if sources.iter().any(|source| source.goal.template != union.goal.template) {
+        union.goal.template = None;
+    }
     for source in &sources[1..] {
         union.generations += source.generations;
         union.seconds += source.seconds;
@@ -207,6 +221,11 @@ mod tests {
         assert!(
             merge(vec![a.clone(), b]).unwrap_err().to_string().contains("scene: none and half")
         );
+        let mut b = run(2, &[]);
+        b.0.goal.template = Some("y = f(x)".into());
+        b.0.goal.cost_of = CostOf::Holes;
+        let error = merge(vec![a.clone(), b]).unwrap_err().to_string();
+        assert!(error.contains("of the whole formula and of the holes of `y = f(x)`"), "{error}");
         let mut c = run(2, &[]);
         c.0.dataset_hash = "cd".into();
         assert!(merge(vec![a, c]).unwrap_err().to_string().contains("dataset: d (ab) and d (cd)"));

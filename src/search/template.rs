@@ -108,7 +108,11 @@ fn finished(
 ) -> Option<FrontMember> {
     let (mut simplifier, mut simple) = (Simplifier::default(), Draft::default());
     simplifier.simplify(child, &mut simple);
-    let guarded = guarded(&simple, problem);
+    let guarded = guarded(&simple, problem).map(|guarded| {
+        let mut simple = Draft::default();
+        simplifier.simplify(&guarded, &mut simple);
+        simple
+    });
     let children = [child.clone(), simple].into_iter().chain(guarded);
     let shown = children.filter_map(|child| shown(&child, template, problem));
     shown.reduce(|plain, other| super::polish::better(plain, other, problem, measure))
