@@ -4,6 +4,7 @@
 use super::bench::{Bench, position, value_at};
 use super::{Error, Place, Projection, Surfaces};
 use crate::dataset::{joint_unit, output_units};
+use crate::fit::Scale;
 use rayon::prelude::*;
 
 /// The error around a group's optimum, along one parameter or over two.
@@ -15,8 +16,12 @@ pub struct Landscape {
     pub parameters: Vec<usize>,
     /// The least and the greatest value of each.
     pub ranges: Vec<[f32; 2]>,
+    /// Whether each is varied on a logarithmic scale.
+    pub logarithmic: Vec<bool>,
     /// The optimum's place in each range, from 0 to 1.
     pub optimum: Vec<f32>,
+    /// The root mean square at the optimum.
+    pub residual: f32,
     /// Points along each.
     pub points: usize,
     /// The root mean squares, the second parameter varying slowest. Not finite where the model is
@@ -27,6 +32,7 @@ pub struct Landscape {
 /// How far from the optimum is looked where there are no bounds: in spreads of the parameter, and
 /// in its own magnitude. By hand, unmeasured.
 const SPREADS: f64 = 3.0;
+const ONE_SIDED: f64 = 0.1;
 
 impl Projection {
     /// Computes the error over one parameter or two around the optimum of a group.
@@ -72,6 +78,11 @@ impl Projection {
             |(&parameter, ends): (&usize, &[f64; 2])| ends.map(|end| value_at(own(parameter), end));
         Landscape {
             at: place.at.clone(),
+            residual: place.residual,
+            logarithmic: parameters
+                .iter()
+                .map(|&parameter| own(parameter).scale == Scale::Logarithmic)
+                .collect(),
             optimum: parameters.iter().enumerate().map(share).collect(),
             ranges: parameters.iter().zip(&ends).map(range).collect(),
             parameters: parameters.to_vec(),
@@ -81,7 +92,8 @@ impl Projection {
     }
 
     /// Returns the positions between which a parameter is varied: its bounds, or some way from an
-    /// optimum.
+    /// optimum, without a change of sign if it has the same everywhere: models of one sign often
+    /// have no finite values for the other.
     fn ends(&self, surfaces: &Surfaces, parameter: usize, optimum: f32) -> [f64; 2] {
         let own = &self.model.parameters()[parameter];
         let values = surfaces.search.iter().map(|place| position(own, place.values[parameter]));
@@ -89,10 +101,19 @@ impl Projection {
         let middle = values.clone().sum::<f64>() / count;
         let spread = (values.map(|value| (value - middle).powi(2)).sum::<f64>() / count).sqrt();
         let optimum = position(own, optimum);
-        let reach = (SPREADS * spread).max(optimum.abs()).max(f64::from(f32::EPSILON));
         let [low, high] = own.bounds.map(|bound| position(own, bound));
-        let low = if low.is_finite() { low } else { optimum - reach };
-        let high = if high.is_finite() { high } else { optimum + reach };
+        let is_everywhere = |is: fn(f32) -> bool| {
+            own.scale == Scale::Linear
+                && surfaces.search.iter().all(|place| is(place.values[parameter]))
+        };
+        let least = if is_everywhere(|value| value >= 0.0) { 0.0 } else { f64::NEG_INFINITY };
+        let most = if is_everywhere(|value| value <= 0.0) { 0.0 } else { f64::INFINITY };
+        // Of one sign, a parameter may be small here and a thousand times larger elsewhere.
+        let is_one_sided = least == 0.0 || most == 0.0;
+        let spreads = if is_one_sided { ONE_SIDED } else { SPREADS };
+        let reach = (spreads * spread).max(optimum.abs()).max(f64::from(f32::EPSILON));
+        let low = if low.is_finite() { low } else { (optimum - reach).max(least) };
+        let high = if high.is_finite() { high } else { (optimum + reach).min(most) };
         if low < high { [low, high] } else { [low, low + 1.0] }
     }
 }

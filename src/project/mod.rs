@@ -63,6 +63,7 @@ mod model;
 mod penalty;
 mod plan;
 mod projection;
+mod proposal;
 mod state;
 mod surfaces;
 mod work;
@@ -72,6 +73,7 @@ pub use error::Error;
 pub use landscape::Landscape;
 pub use model::Model;
 pub use projection::Projection;
+pub use proposal::Proposal;
 pub use state::State;
 pub use surfaces::{Place, Surfaces};
 
