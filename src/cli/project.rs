@@ -2,12 +2,14 @@
 
 use super::explore::quoted;
 use super::fit::{bounds, start};
+use super::import::same_file;
 use super::output::{check_writable, save, to_stderr};
 use super::{Common, Exit, Failure, interrupts};
 use crate::dataset::{Dataset, LARGEST_FILE};
 use crate::deadline::Deadline;
 use crate::file::{read_file, remove_file, replace_file};
 use crate::fit::Measure;
+use crate::program::format_constant;
 use crate::project::{self, Place, Projection, Proposal, Settings, State, Surfaces};
 use crate::report::{ProjectionReport, findings};
 use serde::Serialize;
@@ -103,6 +105,10 @@ struct Range {
 pub fn run(args: &Args, common: &Common) -> Result<(), Failure> {
     let begun = Instant::now();
     check_writable(&args.output)?;
+    if same_file(&args.dataset, &args.output) {
+        let output = args.output.display();
+        return Err(Failure::usage(format!("{output}: the output would replace the dataset")));
+    }
     let data = Dataset::load(&args.dataset)?;
     let settings = Settings {
         bounds: args.bounds.clone(),
@@ -115,6 +121,7 @@ pub fn run(args: &Args, common: &Common) -> Result<(), Failure> {
     };
     let projection = Projection::new(&data, &args.template, &args.over, settings)?;
     let folder = args.report.clone().unwrap_or_else(|| folder_beside(&args.output));
+    check_folder(&folder)?;
     check_places(args)?;
     let surfaces = fitted(args, common, &projection)?;
     for note in &surfaces.notes {
@@ -148,6 +155,14 @@ fn check_places(args: &Args) -> Result<(), Failure> {
         }
     }
     Ok(())
+}
+
+/// Refuses a folder of the report that could not be one, before anything is computed.
+fn check_folder(folder: &Path) -> Result<(), Failure> {
+    match folder.exists() && !folder.is_dir() {
+        true => Err(Failure::unwritable(folder, ErrorKind::AlreadyExists.into())),
+        false => Ok(()),
+    }
 }
 
 /// Returns the places at which errors are drawn.
@@ -184,6 +199,12 @@ fn commands(args: &Args, projection: &Projection, data: &Dataset, next: &Proposa
         format!("lgp search {data}{outputs} --template {template} --guess {guess}")
     });
     each.chain(whole).collect()
+}
+
+/// Returns four digits of a value; zero if it is less than counts as nothing.
+fn shown(value: f32, nothing: f32) -> String {
+    let value = if value.abs() < nothing { 0.0 } else { value };
+    format_constant(format!("{value:.3e}").parse().unwrap_or(value))
 }
 
 fn place(text: &str) -> Result<Vec<(String, f32)>, String> {
@@ -298,7 +319,9 @@ impl Projected {
             "{path}: {groups} groups ({validation_groups} validate), RMSE {rmse:.3e} over all, in {seconds:.1} s\n"
         );
         for Range { name, least, most, .. } in &self.parameters {
-            text += &format!("{name:>8}: {least:.4} to {most:.4}\n");
+            let nothing = 1e-4 * least.abs().max(most.abs());
+            let [least, most] = [least, most].map(|&end| shown(end, nothing));
+            text += &format!("{name:>8}: {least} to {most}\n");
         }
         for finding in &self.findings {
             text += &format!("{finding}\n");

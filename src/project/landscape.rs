@@ -34,6 +34,9 @@ pub struct Landscape {
 const SPREADS: f64 = 3.0;
 const ONE_SIDED: f64 = 0.1;
 
+/// Values of the other sign that are rounding, as a share of the largest. By hand.
+const ROUNDING: f64 = 1e-5;
+
 impl Projection {
     /// Computes the error over one parameter or two around the optimum of a group.
     pub fn landscape(
@@ -102,14 +105,16 @@ impl Projection {
         let spread = (values.map(|value| (value - middle).powi(2)).sum::<f64>() / count).sqrt();
         let optimum = position(own, optimum);
         let [low, high] = own.bounds.map(|bound| position(own, bound));
-        let is_everywhere = |is: fn(f32) -> bool| {
-            own.scale == Scale::Linear
-                && surfaces.search.iter().all(|place| is(place.values[parameter]))
-        };
-        let least = if is_everywhere(|value| value >= 0.0) { 0.0 } else { f64::NEG_INFINITY };
-        let most = if is_everywhere(|value| value <= 0.0) { 0.0 } else { f64::INFINITY };
+        let values = surfaces.search.iter().map(|place| f64::from(place.values[parameter]));
+        let [most_below, most_above] =
+            values.fold([0.0f64; 2], |[below, above], value| [below.max(-value), above.max(value)]);
+        let is_linear = own.scale == Scale::Linear;
+        let is_positive = is_linear && most_below <= ROUNDING * most_above;
+        let is_negative = is_linear && most_above <= ROUNDING * most_below;
+        let least = if is_positive { 0.0 } else { f64::NEG_INFINITY };
+        let most = if is_negative { 0.0 } else { f64::INFINITY };
         // Of one sign, a parameter may be small here and a thousand times larger elsewhere.
-        let is_one_sided = least == 0.0 || most == 0.0;
+        let is_one_sided = is_positive || is_negative;
         let spreads = if is_one_sided { ONE_SIDED } else { SPREADS };
         let reach = (spreads * spread).max(optimum.abs()).max(f64::from(f32::EPSILON));
         let low = if low.is_finite() { low } else { (optimum - reach).max(least) };
