@@ -1,7 +1,7 @@
 """Projections: how long 100 × 100 groups of 256 rows take, on one thread and on two, and what is recovered of parameters
 that are known; and an example with pictures. Writes project/times.csv, the pictures, and the tables in project/README.md.
 
-    python3 results/project.py      lgp on the PATH; about ten minutes on two cores
+    python3 results/project.py      lgp on the PATH; about three minutes on two cores
 """
 
 import array
@@ -88,7 +88,7 @@ def times(folder):
         "--channels", "y", "--quiet")
     for options in ["", "--smooth 1e-4", "--global"]:
         first = None
-        for number in range(1, RUNS + 1 if not options else 2):
+        for number in range(1, RUNS + 1):
             # Alternating, so that other work on the machine disturbs both.
             for threads in [1, 2]:
                 found, row = run(folder, options, threads, number)

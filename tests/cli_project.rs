@@ -46,11 +46,11 @@ fn words(line: &str) -> Vec<String> {
 }
 
 /// Searches for a moment with a command line that was printed.
-fn search(folder: &Path, line: &str) -> String {
+fn search(folder: &Path, line: &str, generations: &str) -> String {
     let words = words(line);
     assert_eq!(words[0], "lgp");
     let own: Vec<&str> = words[1..].iter().map(String::as_str).collect();
-    let brief = ["--generations", "6", "--islands", "2", "--fixed-samples", "--quiet"];
+    let brief = ["--generations", generations, "--islands", "2", "--fixed-samples", "--quiet"];
     succeed(folder, &[&own[..], &brief].concat())
 }
 
@@ -85,17 +85,17 @@ fn every_command_that_is_printed_runs() {
     let [p, q, both] = lines.as_slice() else { panic!("{lines:?}") };
     // What q hardly depends on is left out.
     assert_eq!(*q, "lgp search params.bin --outputs q --inputs alpha");
-    let front = search(folder, &format!("{p} --max-cost 3"));
+    let front = search(folder, &format!("{p} --max-cost 3"), "6");
     assert!(front.contains("p = alpha*size + 0.5"), "{front}");
-    assert!(search(folder, q).contains("q = "));
+    assert!(search(folder, q, "1").contains("q = "));
     assert!(both.contains("--template 'y = p(alpha, size)*exp2(-q(alpha)*x^2)'"), "{both}");
-    let front = search(folder, both);
+    let front = search(folder, both, "1");
     assert!(front.contains("with q(alpha) = "), "{front}");
     // A formula that was found takes the place of a guess.
     let (before, guess) = both.split_once(" --guess ").unwrap();
     assert!(guess.starts_with("'p(alpha, size) = 0."), "{guess}");
     let found = "p(alpha, size) = alpha*size + 0.5; q(alpha) = 8*alpha^2 + 1";
-    let front = search(folder, &format!("{before} --guess '{found}'"));
+    let front = search(folder, &format!("{before} --guess '{found}'"), "1");
     assert!(least_rmse(&front) < 1e-5, "{front}");
 }
 
@@ -118,8 +118,8 @@ fn parameters_that_are_constants_stay_constants() {
     let whole = lines[1].as_str().unwrap();
     let rest = "--outputs y --template 'y = p(alpha)*exp2(-$q*x^2)' --guess 'p(alpha) = ";
     assert!(whole.contains(rest) && whole.ends_with("; $q = 3'"), "{whole}");
-    search(folder, lines[0].as_str().unwrap());
-    let front = search(folder, whole);
+    search(folder, lines[0].as_str().unwrap(), "1");
+    let front = search(folder, whole, "1");
     assert!(front.contains("with $q = "), "{front}");
 }
 
