@@ -29,6 +29,16 @@ pub struct Landscape {
     pub errors: Vec<f32>,
 }
 
+/// The grid that the search split's places lie on, or most of it.
+#[derive(Clone, Debug, PartialEq)]
+pub struct PlaceGrid {
+    /// The values along each input, ascending.
+    pub axes: Vec<Vec<f32>>,
+    /// By combination of these, the last input varying fastest: the index of the place, unless it is
+    /// missing.
+    pub numbers: Vec<Option<usize>>,
+}
+
 /// How far from the optimum is looked where there are no bounds: in spreads of the parameter, and
 /// in its own magnitude. By hand, unmeasured.
 const SPREADS: f64 = 3.0;
@@ -163,9 +173,8 @@ impl Surfaces {
         })
     }
 
-    /// Returns the places along each input, ascending, and the number of the place at each of their
-    /// combinations, the last input varying fastest; none if places are scattered.
-    pub fn table(&self) -> Option<(Vec<Vec<f32>>, Vec<Option<usize>>)> {
+    /// Returns the grid that places lie on; none if they are scattered.
+    pub fn table(&self) -> Option<PlaceGrid> {
         let lattice = self.lattice.as_ref()?;
         let grid = lattice.grid();
         let mut numbers = vec![None; grid.iter().product()];
@@ -175,6 +184,6 @@ impl Surfaces {
                 at.iter().zip(&grid).fold(0, |cell, (&i, points)| cell * points + i as usize);
             numbers[cell] = Some(number);
         }
-        Some((lattice.axes.clone(), numbers))
+        Some(PlaceGrid { axes: lattice.axes.clone(), numbers })
     }
 }

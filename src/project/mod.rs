@@ -70,7 +70,7 @@ mod work;
 
 pub use dependence::Dependence;
 pub use error::Error;
-pub use landscape::Landscape;
+pub use landscape::{Landscape, PlaceGrid};
 pub use model::Model;
 pub use projection::Projection;
 pub use proposal::Proposal;

@@ -131,10 +131,10 @@ fn heat(
         Some(below + v * (above - below)).filter(|value| value.is_finite())
     };
     let level = |x: usize, y: usize| between(x, y).map(|value| (CONTOURS * value).floor());
+    let value = |x: usize, y: usize| at(nearest(columns[x]), nearest(rows[PANEL - 1 - y]));
     for y in 0..PANEL {
         for x in 0..PANEL {
-            let value = at(nearest(columns[x]), nearest(rows[PANEL - 1 - y]));
-            raster.blend(left + x, top + y, viridis(value), 1.0);
+            raster.blend(left + x, top + y, viridis(value(x, y)), 1.0);
             if !contours || x + 1 == PANEL || y + 1 == PANEL {
                 continue;
             }

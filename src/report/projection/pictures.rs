@@ -2,7 +2,7 @@
 
 use super::panels::{Content, Panel, picture};
 use super::scale::Scale;
-use crate::project::{Landscape, Place, Surfaces};
+use crate::project::{Landscape, Place, PlaceGrid, Surfaces};
 use crate::report::maps::end_text;
 use crate::report::plot::{PlotError, Theme};
 
@@ -20,8 +20,8 @@ pub(super) fn surfaces(
 ) -> Result<Vec<u8>, PlotError> {
     let labels = surfaces.labels.iter().map(String::as_str).chain(["residual"]).enumerate();
     let rows: Vec<Vec<Panel>> = match surfaces.table() {
-        Some((axes, numbers)) => {
-            let table = Table { surfaces, axes, numbers };
+        Some(grid) => {
+            let table = Table { surfaces, grid };
             labels.map(|(which, label)| table.panels(which, label)).collect()
         }
         None => labels.map(|(which, label)| vec![scattered(surfaces, which, label)]).collect(),
@@ -63,20 +63,19 @@ fn scale_of(surfaces: &Surfaces, which: usize) -> Scale {
 /// Surfaces on a grid, or most of one.
 struct Table<'a> {
     surfaces: &'a Surfaces,
-    axes: Vec<Vec<f32>>,
-    numbers: Vec<Option<usize>>,
+    grid: PlaceGrid,
 }
 
 impl Table<'_> {
     fn value(&self, cell: usize, which: usize) -> f32 {
-        let number = self.numbers[cell];
+        let number = self.grid.numbers[cell];
         number.map_or(f32::NAN, |number| value_of(&self.surfaces.search[number], which))
     }
 
     /// Returns a panel for each slice.
     fn panels(&self, which: usize, label: &str) -> Vec<Panel> {
         let scale = scale_of(self.surfaces, which);
-        if let [only] = self.axes.as_slice() {
+        if let [only] = self.grid.axes.as_slice() {
             let title = [label.to_owned(), described(label)];
             let values: Vec<f32> = (0..only.len()).map(|i| self.value(i, which)).collect();
             let name = &self.surfaces.over[0].name;
@@ -91,7 +90,7 @@ impl Table<'_> {
     }
 
     fn slice(&self, which: usize, scale: Scale, title: [String; 2], below: &[usize]) -> Panel {
-        let [across, up, others @ ..] = self.axes.as_slice() else {
+        let [across, up, others @ ..] = self.grid.axes.as_slice() else {
             unreachable!("a slice has two inputs")
         };
         let cell = |x: usize, y: usize| {
@@ -119,7 +118,7 @@ impl Table<'_> {
     /// Returns the slices of the inputs after the second, in words, too: of the third at its ends
     /// and in the middle, of further ones in the middle.
     fn slices(&self) -> Vec<(Vec<usize>, String)> {
-        let [_, _, third, others @ ..] = self.axes.as_slice() else {
+        let [_, _, third, others @ ..] = self.grid.axes.as_slice() else {
             return vec![(Vec::new(), String::new())];
         };
         let mut at = vec![0, third.len() / 2, third.len() - 1];
@@ -127,7 +126,7 @@ impl Table<'_> {
         let middle: Vec<usize> = others.iter().map(|axis| axis.len() / 2).collect();
         let slice = |i: usize| {
             let places = [&[i][..], &middle].concat();
-            let values = self.axes[2..].iter().zip(&places).map(|(axis, &i)| axis[i]);
+            let values = self.grid.axes[2..].iter().zip(&places).map(|(axis, &i)| axis[i]);
             let named = self.surfaces.over[2..].iter().zip(values);
             let texts = named.map(|(column, value)| format!("{} {}", column.name, end_text(value)));
             let text = texts.collect::<Vec<_>>().join(", ");
