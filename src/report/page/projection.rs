@@ -29,7 +29,7 @@ pub(in crate::report) struct ParameterRow {
 }
 
 const ABOUT_INPUTS: &str = "For each input: the share of the parameter’s variance along it, and the RMSE with the parameter’s mean over that input in its place.";
-const ABOUT_CONSTANTS: &str = "Last: the RMSE with one constant in the parameter’s place.";
+const ABOUT_CONSTANTS: &str = "As a constant: the RMSE with one constant in the parameter’s place.";
 
 const TEMPLATE: &str = include_str!("projection.html");
 
