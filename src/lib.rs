@@ -62,6 +62,7 @@
 //! | problem, method, session, run | what is asked; how it is searched; a search under way; what it leaves behind |
 //! | scene | what a use needs of a dataset: ranges, fixed inputs, histograms, combined outputs |
 //! | claim, verdict | a comparison that is to hold for every input; proved, refuted with a counterexample, or open |
+//! | projection, group, place | the parameters of a model fitted group by group ([`project`]); rows that share the values of some inputs; these values |
 //! | incumbent | a published formula for the same data, scored as a member of a front would be |
 //!
 //! # A search in ten lines

@@ -28,33 +28,115 @@ fn project(folder: &Path, options: &[&str]) -> (Option<i32>, String, String) {
     (output.status.code(), text(&output.stdout), text(&output.stderr))
 }
 
+/// The words of a command line, as a shell takes them apart.
+fn words(line: &str) -> Vec<String> {
+    let (mut words, mut word, mut quoted) = (Vec::new(), String::new(), false);
+    let mut characters = line.chars();
+    while let Some(c) = characters.next() {
+        match c {
+            '\'' => quoted = !quoted,
+            '\\' if !quoted => word.extend(characters.next()),
+            ' ' if !quoted => words.push(std::mem::take(&mut word)),
+            c => word.push(c),
+        }
+    }
+    assert!(!quoted, "{line}");
+    words.push(word);
+    words
+}
+
+/// Searches for a moment with a command line that was printed.
+fn search(folder: &Path, line: &str, generations: &str) -> String {
+    let words = words(line);
+    assert_eq!(words[0], "lgp");
+    let own: Vec<&str> = words[1..].iter().map(String::as_str).collect();
+    let brief = ["--generations", generations, "--islands", "2", "--fixed-samples", "--quiet"];
+    succeed(folder, &[&own[..], &brief].concat())
+}
+
+/// The least RMSE of a front's table.
+fn least_rmse(front: &str) -> f64 {
+    let member = |line: &str| {
+        let mut columns = line.split_whitespace();
+        columns.next()?.parse::<usize>().ok()?;
+        columns.nth(1)?.parse::<f64>().ok()
+    };
+    front.lines().filter_map(member).fold(f64::INFINITY, f64::min)
+}
+
 #[test]
-fn parameters_are_searched_for_formulas() {
+fn every_command_that_is_printed_runs() {
     let folder = lobe("12");
     let folder = folder.path();
-    let words = [MODEL, "lobe.bin", "--over", "alpha,size", "-o", "params.bin", "--json"];
-    let (code, found, said) = project(folder, &words);
+    let given = [MODEL, "lobe.bin", "--over", "alpha,size", "-o", "params.bin", "--json"];
+    let (code, found, said) = project(folder, &given);
     assert_eq!(code, Some(0), "{said}");
     let found: Value = serde_json::from_str(&found).unwrap();
     assert_eq!((&found["groups"], &found["grid"]), (&196.into(), &serde_json::json!([14, 14])));
     assert!(!folder.join("params.bin.part").exists());
     let about = succeed(folder, &["info", "params.bin"]);
     assert!(about.contains("grid 14×14") && about.contains("residual"), "{about}");
-    let search = ["search", "params.bin", "--outputs", "p", "--generations", "6", "--islands", "2"];
-    let front = succeed(folder, &[&search[..], &["--max-cost", "3", "--quiet"]].concat());
+    let page = std::fs::read_to_string(folder.join("params_report/report.html")).unwrap();
+    let lines = found["commands"].as_array().unwrap();
+    let lines: Vec<&str> = lines.iter().map(|line| line.as_str().unwrap()).collect();
+    for line in &lines {
+        assert!(page.contains(&line.replace('\'', "&#x27;")), "{line}");
+    }
+    let [p, q, both] = lines.as_slice() else { panic!("{lines:?}") };
+    // What q hardly depends on is left out.
+    assert_eq!(*q, "lgp search params.bin --outputs q --inputs alpha");
+    let front = search(folder, &format!("{p} --max-cost 3"), "6");
     assert!(front.contains("p = alpha*size + 0.5"), "{front}");
+    assert!(search(folder, q, "1").contains("q = "));
+    assert!(both.contains("--template 'y = p(alpha, size)*exp2(-q(alpha)*x^2)'"), "{both}");
+    let front = search(folder, both, "1");
+    assert!(front.contains("with q(alpha) = "), "{front}");
+    // A formula that was found takes the place of a guess.
+    let (before, guess) = both.split_once(" --guess ").unwrap();
+    assert!(guess.starts_with("'p(alpha, size) = 0."), "{guess}");
+    let found = "p(alpha, size) = alpha*size + 0.5; q(alpha) = 8*alpha^2 + 1";
+    let front = search(folder, &format!("{before} --guess '{found}'"), "1");
+    assert!(least_rmse(&front) < 1e-5, "{front}");
+}
+
+#[test]
+fn parameters_that_are_constants_stay_constants() {
+    let folder = TempDir::new().unwrap();
+    let folder = folder.path();
+    let formula = "y = alpha*exp2(-3*x^2); z = alpha";
+    let data = ["generate", "--formula", formula, "--domain", "x=0..1,alpha=0.1..1", "--points"];
+    succeed(folder, &[&data[..], &["12", "-o", "it's.bin"]].concat());
+    let given = [MODEL, "it's.bin", "--over", "alpha", "-o", "a b.bin", "--json"];
+    let (code, found, said) = project(folder, &given);
+    assert_eq!(code, Some(0), "{said}");
+    let found: Value = serde_json::from_str(&found).unwrap();
+    let said = found["findings"].to_string();
+    assert!(said.contains("q may as well be a constant"), "{said}");
+    let lines = found["commands"].as_array().unwrap();
+    assert_eq!(lines.len(), 2, "{lines:?}");
+    assert_eq!(lines[0], "lgp search 'a b.bin' --outputs p");
+    let whole = lines[1].as_str().unwrap();
+    let rest = "--outputs y --template 'y = p(alpha)*exp2(-$q*x^2)' --guess 'p(alpha) = ";
+    assert!(whole.contains(rest) && whole.ends_with("; $q = 3'"), "{whole}");
+    search(folder, lines[0].as_str().unwrap(), "1");
+    let front = search(folder, whole, "1");
+    assert!(front.contains("with $q = "), "{front}");
 }
 
 #[test]
 fn what_cannot_be_projected_is_refused_with_the_reason() {
     let folder = lobe("6");
     let folder = folder.path();
+    let kept = b"nobody writes over this";
+    std::fs::write(folder.join("params.bin"), kept).unwrap();
+    let data = std::fs::read(folder.join("lobe.bin")).unwrap();
     let refused = |model: &str, options: &[&str], code: i32, reason: &str| {
         let words = [&[model, "lobe.bin", "-o", "params.bin"], options].concat();
         let (found, _, said) = project(folder, &words);
         assert_eq!(found, Some(code), "{words:?}: {said}");
         assert!(said.contains(reason), "{words:?}: {said}");
-        assert!(!folder.join("params.bin").exists());
+        assert!(std::fs::read(folder.join("params.bin")).unwrap() == kept, "{words:?}");
+        assert!(!folder.join("params_report").exists(), "{words:?}");
     };
     let over = ["--over", "alpha,size"];
     refused(MODEL, &["--over", "alhpa"], 2, "did you mean `alpha`?");
@@ -76,7 +158,24 @@ fn what_cannot_be_projected_is_refused_with_the_reason() {
     refused(MODEL, &["--over", "alpha", "--smooth", "-1"], 2, "--smooth -1");
     refused(MODEL, &["--over", "alpha", "--loss", "max"], 2, "minimises squares; max is none");
     refused("y = log2(-$p^2 - 1)*x", &over, 3, "finite in too few of the");
-    refused("y = $p*x", &["--over", "alpha", "-o", "nowhere/p.bin"], 2, "");
+    refused("y = $p*f(x); f(a) = f(a)*2", &over, 3, "");
+    refused("f(a) = f(a)*2; y = $p*f(x)", &over, 3, "a definition cannot be recursive");
+    // What is left of `"y = $p*x"` in a shell.
+    refused("y = *x", &over, 2, "in single quotes");
+    refused(MODEL, &["--over", "alpha", "--surface", "size=0.5"], 2, "--surface size");
+    refused(MODEL, &["--over", "alpha", "--surface", "size"], 2, "");
+    refused(MODEL, &["--over", "alpha", "--report", "lobe.bin"], 1, "lobe.bin: cannot be written");
+    for (output, code, reason) in [
+        ("nowhere/p.bin", 1, "its folder does not exist"),
+        ("lobe.bin", 2, "the output would replace the dataset"),
+        (".", 1, "cannot be written"),
+    ] {
+        let (found, _, said) =
+            project(folder, &[MODEL, "lobe.bin", "--over", "alpha", "-o", output]);
+        assert_eq!(found, Some(code), "{output}: {said}");
+        assert!(said.contains(reason), "{output}: {said}");
+    }
+    assert!(std::fs::read(folder.join("lobe.bin")).unwrap() == data);
     let table: String = (0..40).map(|i| format!("{i},{},{}\n", i * i, 3 * i)).collect();
     std::fs::write(folder.join("t.csv"), format!("a,x,y\n{table}")).unwrap();
     succeed(folder, &["import", "t.csv", "-o", "t.bin", "--inputs", "2"]);

@@ -312,19 +312,27 @@ fn scattered_groups_are_projected_from_the_nearest() {
 }
 
 #[test]
-fn a_template_with_functions_in_place_of_parameters_is_one_to_search() {
-    let (data, settings) = waves();
-    let over = names(&["a"]);
-    for (text, expected) in [
-        ("y = sin($f*x)", "y = sin(f(a)*x)"),
-        ("f = 2; y = f*sin($f*x)", "f = 2; y = f*sin(f(a)*x)"),
-    ] {
-        let projection = Projection::new(&data, text, &over, settings.clone()).unwrap();
-        let written = projection.model().with_functions(&over, &data.names());
-        assert_eq!(written.as_deref(), Some(expected));
-    }
-    let settings = Settings::default();
-    let projection = Projection::new(&data, "y = $max*x", &over, settings).unwrap();
-    let written = projection.model().with_functions(&over, &data.names());
-    assert_eq!(written.as_deref(), Some("y = max_(a)*x"));
+fn a_proposal_has_functions_of_what_parameters_depend_on() {
+    let inputs =
+        [("a", evenly(9, 0.25, 1.0)), ("b", evenly(8, 0.0, 1.0)), ("x", evenly(16, 0.0, 1.0))];
+    let proposal = |text: &str, f: &dyn Fn(&[f64]) -> f64| {
+        let data = rows(&inputs, 0.01, f);
+        let over = names(&["a", "b"]);
+        let projection = Projection::new(&data, text, &over, Settings::default()).unwrap();
+        let surfaces = done(&projection);
+        let found = projection.proposal(&surfaces, &projection.dependences(&surfaces));
+        (found.template.unwrap(), found.guess)
+    };
+    // A sum of both, a power of one.
+    let lobe = |at: &[f64]| (1.5 + 2.0 * at[0] - at[1]) * (-at[0].powi(-2) * at[2].powi(2)).exp2();
+    let (template, guess) = proposal("y = $p*exp2(-$q*x^2)", &lobe);
+    assert_eq!(template, "y = p(a, b)*exp2(-q(a)*x^2)");
+    assert!(guess.starts_with("p(a, b) = 1.5 + 2*a - 1*b; q(a) = exp2("), "{guess}");
+    assert!(guess.ends_with("- 2*log2(a))"), "{guess}");
+    // An exponential, a constant, names that are taken.
+    let (template, guess) =
+        proposal("p = $max*x; y = p + $q", &|at| (3.0 * at[1]).exp2() * at[2] + 0.5);
+    assert_eq!(template, "p = max_(b)*x; y = p + $q");
+    assert!(guess.contains("max_(b) = exp2(") && guess.contains("+ 3*b)"), "{guess}");
+    assert!(guess.contains("$q = 0.5"), "{guess}");
 }

@@ -203,7 +203,7 @@ fn summary(imported: &Imported) -> String {
     [vec![first], imported.understood.sentences()].concat().join("\n  ")
 }
 
-fn same_file(a: &Path, b: &Path) -> bool {
+pub(super) fn same_file(a: &Path, b: &Path) -> bool {
     match (a.canonicalize(), b.canonicalize()) {
         (Ok(a), Ok(b)) => a == b,
         _ => false,

@@ -2,13 +2,15 @@
 
 use super::explore::quoted;
 use super::fit::{bounds, start};
+use super::import::same_file;
 use super::output::{check_writable, save, to_stderr};
 use super::{Common, Exit, Failure, interrupts};
 use crate::dataset::{Dataset, LARGEST_FILE};
 use crate::deadline::Deadline;
 use crate::file::{read_file, remove_file, replace_file};
 use crate::fit::Measure;
-use crate::project::{self, Projection, Settings, State, Surfaces};
+use crate::program::format_constant;
+use crate::project::{self, Place, Projection, Proposal, Settings, State, Surfaces};
 use crate::report::{ProjectionReport, findings};
 use serde::Serialize;
 use std::io::ErrorKind;
@@ -22,7 +24,9 @@ use std::time::{Duration, Instant};
 /// and `residual`, the RMSE of each group; search it for formulas of the parameters. Ctrl-C keeps
 /// what is done, for --resume.
 ///
-/// For example: lgp project "y = $p*exp2(-$q*x)" lobe.bin --over alpha,size -o params.bin
+/// For example: lgp project 'y = $p*exp2(-$q*x)' lobe.bin --over alpha,size -o params.bin
+///
+/// In single quotes: within double quotes a shell takes $p for a variable of its own.
 #[derive(clap::Args)]
 pub struct Args {
     /// Statements `name = expression`, separated by `;`, over the dataset's columns; `$name` is a
@@ -101,6 +105,10 @@ struct Range {
 pub fn run(args: &Args, common: &Common) -> Result<(), Failure> {
     let begun = Instant::now();
     check_writable(&args.output)?;
+    if same_file(&args.dataset, &args.output) {
+        let output = args.output.display();
+        return Err(Failure::usage(format!("{output}: the output would replace the dataset")));
+    }
     let data = Dataset::load(&args.dataset)?;
     let settings = Settings {
         bounds: args.bounds.clone(),
@@ -113,6 +121,7 @@ pub fn run(args: &Args, common: &Common) -> Result<(), Failure> {
     };
     let projection = Projection::new(&data, &args.template, &args.over, settings)?;
     let folder = args.report.clone().unwrap_or_else(|| folder_beside(&args.output));
+    check_folder(&folder)?;
     check_places(args)?;
     let surfaces = fitted(args, common, &projection)?;
     for note in &surfaces.notes {
@@ -121,9 +130,19 @@ pub fn run(args: &Args, common: &Common) -> Result<(), Failure> {
     let dataset = save(surfaces.dataset(&projection)?, &args.output)?;
     let part = part_of(&args.output);
     remove_file(&part).map_err(|error| Failure::unwritable(&part, error))?;
-    let commands = commands(args, &projection, &data);
-    write_report(args, &projection, &surfaces, &commands, &folder)?;
-    let projected = Projected::of(args, &projection, surfaces, &dataset, commands, begun.elapsed());
+    let dependences = projection.dependences(&surfaces);
+    let next = projection.proposal(&surfaces, &dependences);
+    let commands = commands(args, &projection, &data, &next);
+    let report = ProjectionReport {
+        projection: &projection,
+        surfaces: &surfaces,
+        dependences: &dependences,
+        places: places(args, &surfaces)?,
+        commands,
+    };
+    std::fs::create_dir_all(&folder).map_err(|error| Failure::unwritable(&folder, error))?;
+    report.write(&folder)?;
+    let projected = Projected::of(args, &report, &dataset, begun.elapsed());
     common.summary(&projected, &projected.text(&folder))
 }
 
@@ -138,23 +157,20 @@ fn check_places(args: &Args) -> Result<(), Failure> {
     Ok(())
 }
 
-fn write_report(
-    args: &Args,
-    projection: &Projection,
-    surfaces: &Surfaces,
-    commands: &[String],
-    folder: &Path,
-) -> Result<(), Failure> {
-    let mut places = Vec::new();
-    for asked in &args.surface {
-        places.push(surfaces.nearest(asked)?);
+/// Refuses a folder of the report that could not be one, before anything is computed.
+fn check_folder(folder: &Path) -> Result<(), Failure> {
+    match folder.exists() && !folder.is_dir() {
+        true => Err(Failure::unwritable(folder, ErrorKind::AlreadyExists.into())),
+        false => Ok(()),
     }
-    if places.is_empty() {
-        places = vec![surfaces.nearest(&[])?, surfaces.worst()];
+}
+
+/// Returns the places at which errors are drawn.
+fn places<'a>(args: &Args, surfaces: &'a Surfaces) -> Result<Vec<&'a Place>, Failure> {
+    if args.surface.is_empty() {
+        return Ok(vec![surfaces.nearest(&[])?, surfaces.worst()]);
     }
-    std::fs::create_dir_all(folder).map_err(|error| Failure::unwritable(folder, error))?;
-    let report = ProjectionReport { projection, surfaces, places, commands: commands.to_vec() };
-    Ok(report.write(folder)?)
+    Ok(args.surface.iter().map(|asked| surfaces.nearest(asked)).collect::<Result<_, _>>()?)
 }
 
 /// Returns the folder of the report, beside the output.
@@ -164,21 +180,31 @@ fn folder_beside(output: &Path) -> PathBuf {
 }
 
 /// Returns the command lines to go on with: a search for each parameter, and one for all together
-/// in the model.
-fn commands(args: &Args, projection: &Projection, data: &Dataset) -> Vec<String> {
+/// in the model, from a rough guess of each. In single quotes: a shell leaves `$` alone there.
+fn commands(args: &Args, projection: &Projection, data: &Dataset, next: &Proposal) -> Vec<String> {
     let model = projection.model();
     let path = quoted(&args.output.display().to_string());
-    let each = model.labels().iter().map(|label| format!("lgp search {path} --outputs {label}"));
-    let template = model.with_functions(&args.over, &data.names());
-    let whole = template.map(|template| {
+    let each = model.labels().iter().zip(&next.arguments).filter(|(_, inputs)| !inputs.is_empty());
+    let each = each.map(|(label, inputs)| match inputs.len() < args.over.len() {
+        true => format!("lgp search {path} --outputs {label} --inputs {}", inputs.join(",")),
+        false => format!("lgp search {path} --outputs {label}"),
+    });
+    let whole = next.template.as_ref().map(|template| {
         let outputs = match model.outputs() == data.names().outputs {
             true => String::new(),
             false => format!(" --outputs {}", model.outputs().join(",")),
         };
         let data = quoted(&args.dataset.display().to_string());
-        format!("lgp search {data}{outputs} --template \"{template}\"")
+        let (template, guess) = (quoted(template), quoted(&next.guess));
+        format!("lgp search {data}{outputs} --template {template} --guess {guess}")
     });
     each.chain(whole).collect()
+}
+
+/// Returns four digits of a value; zero if it is less than counts as nothing.
+fn shown(value: f32, nothing: f32) -> String {
+    let value = if value.abs() < nothing { 0.0 } else { value };
+    format_constant(format!("{value:.3e}").parse().unwrap_or(value))
 }
 
 fn place(text: &str) -> Result<Vec<(String, f32)>, String> {
@@ -258,17 +284,12 @@ fn part_of(output: &Path) -> PathBuf {
 }
 
 impl Projected {
-    fn of(
-        args: &Args,
-        projection: &Projection,
-        surfaces: Surfaces,
-        dataset: &Dataset,
-        commands: Vec<String>,
-        time: Duration,
-    ) -> Projected {
+    fn of(args: &Args, report: &ProjectionReport, dataset: &Dataset, time: Duration) -> Projected {
+        let ProjectionReport { projection, surfaces, dependences, .. } = *report;
         let parameter = |(place, name): (usize, &String)| {
             let values = surfaces.search.iter().map(|found| found.values[place]);
-            let [at_lower_bound, at_upper_bound] = surfaces.on_bounds(projection, place);
+            let [at_lower_bound, at_upper_bound] =
+                surfaces.on_bounds(projection, place).map(|places| places.len());
             Range {
                 name: name.clone(),
                 least: values.clone().fold(f32::INFINITY, f32::min),
@@ -283,10 +304,10 @@ impl Projected {
             validation_groups: dataset.validation.rows(),
             parameters: surfaces.labels.iter().enumerate().map(parameter).collect(),
             rmse: surfaces.rmse(),
-            findings: findings(projection, &surfaces, &projection.dependences(&surfaces)),
-            commands,
-            grid: surfaces.grid,
-            notes: surfaces.notes,
+            findings: findings(projection, surfaces, dependences),
+            commands: report.commands.clone(),
+            grid: surfaces.grid.clone(),
+            notes: surfaces.notes.clone(),
             seconds: time.as_secs_f64(),
         }
     }
@@ -298,6 +319,8 @@ impl Projected {
             "{path}: {groups} groups ({validation_groups} validate), RMSE {rmse:.3e} over all, in {seconds:.1} s\n"
         );
         for Range { name, least, most, .. } in &self.parameters {
+            let nothing = 1e-4 * least.abs().max(most.abs());
+            let [least, most] = [least, most].map(|&end| shown(end, nothing));
             text += &format!("{name:>8}: {least} to {most}\n");
         }
         for finding in &self.findings {

@@ -6,7 +6,7 @@ const MIN_PIVOT: f64 = 1e-11;
 
 /// The factor `L` of a matrix `L·Lᵀ`. Since the factor of a leading block is the leading block of
 /// the factor, it solves for any number of the first unknowns.
-pub(super) struct Cholesky {
+pub(crate) struct Cholesky {
     size: usize,
     lower: Vec<f64>,
     /// Unknowns that depend on those before them, and are zero in solutions.

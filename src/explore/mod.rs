@@ -73,6 +73,7 @@ mod units;
 
 pub use departure::{Departure, Verdict};
 pub use form::Form;
+pub(crate) use linear::Cholesky;
 pub use output::{Finding, Influence, OutputReport, SmoothFit};
 pub use shape::Pairing;
 pub use template::Template;

@@ -15,7 +15,9 @@ pub enum Error {
     /// The data, or what was to be made of them.
     #[error(transparent)]
     Dataset(#[from] dataset::Error),
-    #[error("the template has no parameter; write one as $name, or use `lgp eval`")]
+    #[error(
+        "the template has no parameter; write one as $name, in single quotes, since within double quotes a shell takes $name for its own; without parameters, `lgp eval`"
+    )]
     NoParameter,
     #[error(
         "the template calls {functions}, which it does not define; `lgp search --template` finds functions, here only constants, written $name, are fitted"

@@ -4,6 +4,7 @@
 use super::bench::{Bench, position, value_at};
 use super::{Error, Place, Projection, Surfaces};
 use crate::dataset::{joint_unit, output_units};
+use crate::fit::Scale;
 use rayon::prelude::*;
 
 /// The error around a group's optimum, along one parameter or over two.
@@ -15,8 +16,12 @@ pub struct Landscape {
     pub parameters: Vec<usize>,
     /// The least and the greatest value of each.
     pub ranges: Vec<[f32; 2]>,
+    /// Whether each is varied on a logarithmic scale.
+    pub logarithmic: Vec<bool>,
     /// The optimum's place in each range, from 0 to 1.
     pub optimum: Vec<f32>,
+    /// The root mean square at the optimum.
+    pub residual: f32,
     /// Points along each.
     pub points: usize,
     /// The root mean squares, the second parameter varying slowest. Not finite where the model is
@@ -24,9 +29,23 @@ pub struct Landscape {
     pub errors: Vec<f32>,
 }
 
+/// The grid that the search split's places lie on, or most of it.
+#[derive(Clone, Debug, PartialEq)]
+pub struct PlaceGrid {
+    /// The values along each input, ascending.
+    pub axes: Vec<Vec<f32>>,
+    /// By combination of these, the last input varying fastest: the index of the place, unless it is
+    /// missing.
+    pub numbers: Vec<Option<usize>>,
+}
+
 /// How far from the optimum is looked where there are no bounds: in spreads of the parameter, and
 /// in its own magnitude. By hand, unmeasured.
 const SPREADS: f64 = 3.0;
+const ONE_SIDED: f64 = 0.1;
+
+/// Values of the other sign that are rounding, as a share of the largest. By hand.
+const ROUNDING: f64 = 1e-5;
 
 impl Projection {
     /// Computes the error over one parameter or two around the optimum of a group.
@@ -72,6 +91,11 @@ impl Projection {
             |(&parameter, ends): (&usize, &[f64; 2])| ends.map(|end| value_at(own(parameter), end));
         Landscape {
             at: place.at.clone(),
+            residual: place.residual,
+            logarithmic: parameters
+                .iter()
+                .map(|&parameter| own(parameter).scale == Scale::Logarithmic)
+                .collect(),
             optimum: parameters.iter().enumerate().map(share).collect(),
             ranges: parameters.iter().zip(&ends).map(range).collect(),
             parameters: parameters.to_vec(),
@@ -81,7 +105,8 @@ impl Projection {
     }
 
     /// Returns the positions between which a parameter is varied: its bounds, or some way from an
-    /// optimum.
+    /// optimum, without a change of sign if it has the same everywhere: models of one sign often
+    /// have no finite values for the other.
     fn ends(&self, surfaces: &Surfaces, parameter: usize, optimum: f32) -> [f64; 2] {
         let own = &self.model.parameters()[parameter];
         let values = surfaces.search.iter().map(|place| position(own, place.values[parameter]));
@@ -89,10 +114,21 @@ impl Projection {
         let middle = values.clone().sum::<f64>() / count;
         let spread = (values.map(|value| (value - middle).powi(2)).sum::<f64>() / count).sqrt();
         let optimum = position(own, optimum);
-        let reach = (SPREADS * spread).max(optimum.abs()).max(f64::from(f32::EPSILON));
         let [low, high] = own.bounds.map(|bound| position(own, bound));
-        let low = if low.is_finite() { low } else { optimum - reach };
-        let high = if high.is_finite() { high } else { optimum + reach };
+        let values = surfaces.search.iter().map(|place| f64::from(place.values[parameter]));
+        let [most_below, most_above] =
+            values.fold([0.0f64; 2], |[below, above], value| [below.max(-value), above.max(value)]);
+        let is_linear = own.scale == Scale::Linear;
+        let is_positive = is_linear && most_below <= ROUNDING * most_above;
+        let is_negative = is_linear && most_above <= ROUNDING * most_below;
+        let least = if is_positive { 0.0 } else { f64::NEG_INFINITY };
+        let most = if is_negative { 0.0 } else { f64::INFINITY };
+        // Of one sign, a parameter may be small here and a thousand times larger elsewhere.
+        let is_one_sided = is_positive || is_negative;
+        let spreads = if is_one_sided { ONE_SIDED } else { SPREADS };
+        let reach = (spreads * spread).max(optimum.abs()).max(f64::from(f32::EPSILON));
+        let low = if low.is_finite() { low } else { (optimum - reach).max(least) };
+        let high = if high.is_finite() { high } else { (optimum + reach).min(most) };
         if low < high { [low, high] } else { [low, low + 1.0] }
     }
 }
@@ -137,9 +173,8 @@ impl Surfaces {
         })
     }
 
-    /// Returns the places along each input, ascending, and the number of the place at each of their
-    /// combinations, the last input varying fastest; none if places are scattered.
-    pub fn table(&self) -> Option<(Vec<Vec<f32>>, Vec<Option<usize>>)> {
+    /// Returns the grid that places lie on; none if they are scattered.
+    pub fn table(&self) -> Option<PlaceGrid> {
         let lattice = self.lattice.as_ref()?;
         let grid = lattice.grid();
         let mut numbers = vec![None; grid.iter().product()];
@@ -149,6 +184,6 @@ impl Surfaces {
                 at.iter().zip(&grid).fold(0, |cell, (&i, points)| cell * points + i as usize);
             numbers[cell] = Some(number);
         }
-        Some((lattice.axes.clone(), numbers))
+        Some(PlaceGrid { axes: lattice.axes.clone(), numbers })
     }
 }

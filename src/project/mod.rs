@@ -63,15 +63,17 @@ mod model;
 mod penalty;
 mod plan;
 mod projection;
+mod proposal;
 mod state;
 mod surfaces;
 mod work;
 
 pub use dependence::Dependence;
 pub use error::Error;
-pub use landscape::Landscape;
+pub use landscape::{Landscape, PlaceGrid};
 pub use model::Model;
 pub use projection::Projection;
+pub use proposal::Proposal;
 pub use state::State;
 pub use surfaces::{Place, Surfaces};
 

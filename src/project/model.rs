@@ -26,6 +26,10 @@ impl Model {
     /// [`Error`]: what is no formula over these columns; functions to be found; no parameter, or
     /// one that no output depends on; bounds, starts and scales that are not of the parameters.
     pub fn parse(text: &str, names: &Names, settings: &Settings) -> Result<Model, Error> {
+        // A shell may have taken the parameters away, and left what is no formula.
+        if !text.contains('$') {
+            return Err(Error::NoParameter);
+        }
         let parsed = assigned(text, names)?;
         let labels: Vec<String> = parsed.free.iter().map(|free| free.name.clone()).collect();
         if labels.is_empty() {
@@ -112,29 +116,36 @@ impl Model {
         taken.map_or(Ok(()), |(name, what)| Err(Error::NameTaken { name: name.clone(), what }))
     }
 
-    /// Returns the template in which each parameter is a function of the inputs, to be found by a
-    /// search: `p(alpha, size)` for `$p`. A name that is an operation's or the template's own gets
-    /// an underscore.
-    pub fn with_functions(&self, over: &[String], names: &Names) -> Option<String> {
+    /// Returns the template in which each parameter is a function of some inputs, to be found by a
+    /// search, `p(alpha, size)` for `$p`, or stays a constant where it has none; and what each
+    /// parameter is called in it. A name that is an operation's or the template's own gets an
+    /// underscore.
+    pub(super) fn with_functions(
+        &self,
+        arguments: &[Vec<String>],
+        names: &Names,
+    ) -> Option<(String, Vec<String>)> {
         let names = Names { inputs: names.inputs.clone(), outputs: self.outputs.clone() };
         let mut called = self.labels.clone();
         for _ in 0..MOST_UNDERSCORES {
-            let text = self.rewritten(over, &called);
+            let text = self.rewritten(arguments, &called);
             let template = Template::parse(&text, &names).ok();
             let is_hole = |name: &String| {
                 template.as_ref().and_then(|template| template.hole(name)).is_some()
             };
             if called.iter().all(is_hole) {
-                return Some(text);
+                return Some((text, called));
             }
-            for name in called.iter_mut() {
-                name.push('_');
+            for (name, arguments) in called.iter_mut().zip(arguments) {
+                if !arguments.is_empty() {
+                    name.push('_');
+                }
             }
         }
         None
     }
 
-    fn rewritten(&self, over: &[String], called: &[String]) -> String {
+    fn rewritten(&self, arguments: &[Vec<String>], called: &[String]) -> String {
         let mut pieces = self.text.split('$');
         let mut text = pieces.next().unwrap_or_default().to_owned();
         for piece in pieces {
@@ -142,8 +153,10 @@ impl Model {
             let end = piece.find(|c| !is_part(c)).unwrap_or(piece.len());
             let (name, after) = piece.split_at(end);
             match self.labels.iter().position(|label| label == name) {
-                Some(place) => text += &format!("{}({})", called[place], over.join(", ")),
-                None => text += &format!("${name}"),
+                Some(place) if !arguments[place].is_empty() => {
+                    text += &format!("{}({})", called[place], arguments[place].join(", "));
+                }
+                _ => text += &format!("${name}"),
             }
             text += after;
         }

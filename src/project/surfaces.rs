@@ -252,11 +252,11 @@ impl Surfaces {
         (squares.sum::<f64>() / self.search.len() as f64).sqrt()
     }
 
-    /// Counts the groups in which a parameter lies on one of its bounds: lower, upper.
-    pub fn on_bounds(&self, projection: &Projection, parameter: usize) -> [usize; 2] {
+    /// Returns the groups in which a parameter lies on its lower bound, and on its upper one.
+    pub fn on_bounds(&self, projection: &Projection, parameter: usize) -> [Vec<&Place>; 2] {
         let known = projection.model().parameters()[parameter];
         let bound = |place: &Place| known.bound(place.values[parameter]);
         [Bound::Lower, Bound::Upper]
-            .map(|one| self.search.iter().filter(|place| bound(place) == Some(one)).count())
+            .map(|one| self.search.iter().filter(|place| bound(place) == Some(one)).collect())
     }
 }

@@ -157,10 +157,17 @@ fn scales(low: f32, high: f32) -> [(&'static str, [f32; 2]); 2] {
 }
 
 /// Draws a scale of colours with the values at its ends.
-pub(super) fn bar(
+fn bar(raster: &mut Raster, at: (usize, usize), [low, high]: [f32; 2], inks: &Inks) {
+    let nothing = 1e-3 * (high - low);
+    let shown = |end: f32| if end.abs() < nothing { 0.0 } else { end };
+    bar_between(raster, at, [low, high].map(|end| end_text(shown(end))), inks);
+}
+
+/// Draws a scale of colours with a text at each end.
+pub(super) fn bar_between(
     raster: &mut Raster,
     (left, top): (usize, usize),
-    [low, high]: [f32; 2],
+    [low, high]: [String; 2],
     inks: &Inks,
 ) {
     for x in 0..PANEL {
@@ -169,9 +176,6 @@ pub(super) fn bar(
         }
     }
     let small = Face::regular(12.0);
-    let nothing = 1e-3 * (high - low);
-    let shown = |end: f32| if end.abs() < nothing { 0.0 } else { end };
-    let [low, high] = [low, high].map(|end| end_text(shown(end)));
     raster.write(&low, small, inks.faint, (left, top + 26), PANEL / 2);
     let right = left + PANEL - small.width(&high) as usize;
     raster.write(&high, small, inks.faint, (right, top + 26), PANEL / 2);

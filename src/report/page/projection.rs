@@ -28,6 +28,9 @@ pub(in crate::report) struct ParameterRow {
     pub costs: Vec<String>,
 }
 
+const ABOUT_INPUTS: &str = "For each input: the share of the parameter’s variance along it, and the RMSE with the parameter’s mean over that input in its place.";
+const ABOUT_CONSTANTS: &str = "As a constant: the RMSE with one constant in the parameter’s place.";
+
 const TEMPLATE: &str = include_str!("projection.html");
 
 /// Returns the page as HTML, which needs nothing else and has no script.
@@ -37,7 +40,10 @@ pub(in crate::report) fn projection_page(page: &ProjectionPage) -> String {
     let items = page.findings.iter().chain(&page.notes);
     let items: String = items.map(|item| format!("<p>{}</p>", text(item))).collect();
     let findings = match items.is_empty() {
-        true => "<p>No parameter lies on a bound, and each depends on every input.</p>".to_owned(),
+        true => {
+            "<p>No parameter lies on a bound, and each depends on all that it was asked to.</p>"
+                .to_owned()
+        }
         false => items,
     };
     let command = |line: &String| format!("<p class=\"command\"><code>{}</code></p>", text(line));
@@ -47,7 +53,12 @@ pub(in crate::report) fn projection_page(page: &ProjectionPage) -> String {
             "<section class=\"card full\"><div class=\"scroll\"><img alt=\"{name}\" src=\"data:image/png;base64,{data}\"></div></section>"
         )
     };
+    let about = match page.inputs.is_empty() {
+        true => ABOUT_CONSTANTS.to_owned(),
+        false => format!("{ABOUT_INPUTS} {ABOUT_CONSTANTS}"),
+    };
     let values = [
+        ("about", about),
         ("title", text(&page.title)),
         ("subtitle", text(&page.subtitle)),
         ("findings", findings),

@@ -1,13 +1,17 @@
 //! The page of a projection, and its pictures: surfaces of parameters, the distance of data and
 //! model, errors over parameters (Pesce & Iwanicki 2015, course notes, figures 1 and 2).
 
+mod findings;
 mod panels;
 mod pictures;
+mod scale;
 
+pub use findings::findings;
+
+use super::maps::end_text;
 use super::page::projection::{ParameterRow, ProjectionPage, projection_page};
 use super::plot::Theme;
 use super::{Error, PAGE, write_file};
-use crate::program::format_constant;
 use crate::project::{Dependence, Landscape, Place, Projection, Surfaces};
 use crate::wording::error_text;
 use std::path::Path;
@@ -17,6 +21,10 @@ pub const PICTURES: [&str; 2] = ["parameters.png", "errors.png"];
 
 /// The points along each parameter of an error surface. By hand: one for two pixels.
 const POINTS: usize = 100;
+
+/// Errors above so many times the outputs' spread are drawn as that: models are far off there. By
+/// hand.
+const ENOUGH: f32 = 3.0;
 
 /// The most pairs of parameters whose errors are shown. By hand.
 const PAIRS: usize = 4;
@@ -28,6 +36,8 @@ pub struct ProjectionReport<'a> {
     pub projection: &'a Projection,
     /// What was found.
     pub surfaces: &'a Surfaces,
+    /// What the parameters depend on.
+    pub dependences: &'a [Dependence],
     /// The places whose errors over parameters are shown.
     pub places: Vec<&'a Place>,
     /// The command lines to go on with.
@@ -42,28 +52,36 @@ impl ProjectionReport<'_> {
     pub fn write(&self, folder: &Path) -> Result<(), Error> {
         let model = self.projection.model();
         let title = format!("Parameters of {}", model.text());
-        let landscapes = self.landscapes();
-        let mut shown = Vec::new();
-        let surfaces = pictures::surfaces(self.surfaces, &title, Theme::Light)?;
-        let errors = pictures::landscapes(&landscapes, self.surfaces, &title, Theme::Light)?;
-        for (name, png) in PICTURES.into_iter().zip([surfaces, Some(errors)]) {
-            if let Some(png) = png {
-                write_file(folder, name, &png)?;
-                shown.push((name, png));
-            }
+        let pictures = self.pictures(&title)?;
+        for (name, png) in &pictures {
+            write_file(folder, name, png)?;
         }
-        let dependences = self.projection.dependences(self.surfaces);
         let page = ProjectionPage {
             title,
             subtitle: self.subtitle(),
             notes: self.surfaces.notes.clone(),
-            findings: findings(self.projection, self.surfaces, &dependences),
-            inputs: self.surfaces.over.iter().map(|column| column.name.clone()).collect(),
-            parameters: self.rows(&dependences),
-            pictures: shown,
+            findings: findings(self.projection, self.surfaces, self.dependences),
+            inputs: self.inputs().map(|input| self.surfaces.over[input].name.clone()).collect(),
+            parameters: self.rows(),
+            pictures,
             commands: self.commands.clone(),
         };
         write_file(folder, PAGE, projection_page(&page).as_bytes())
+    }
+
+    fn pictures(&self, title: &str) -> Result<Vec<(&'static str, Vec<u8>)>, Error> {
+        let surfaces = pictures::surfaces(self.surfaces, title, Theme::Light)?;
+        let others = match self.surfaces.labels.len() {
+            1 => "Errors over the parameter",
+            2 => "Errors over both parameters",
+            _ => "Errors over pairs of parameters, the others at their optimum",
+        };
+        let subtitle = format!("{others}; the RMSE on a logarithmic scale, the optimum a cross");
+        let most = ENOUGH * self.projection.spread_of_outputs() as f32;
+        let words = [title, &subtitle];
+        let found = self.landscapes();
+        let errors = pictures::landscapes(&found, self.surfaces, most, words, Theme::Light)?;
+        Ok(PICTURES.into_iter().zip([surfaces, errors]).collect())
     }
 
     fn subtitle(&self) -> String {
@@ -95,62 +113,32 @@ impl ProjectionReport<'_> {
         self.places.iter().map(at).collect()
     }
 
-    fn rows(&self, dependences: &[Dependence]) -> Vec<ParameterRow> {
+    /// Returns the inputs that something is said of apart: of one alone all is said with a constant.
+    fn inputs(&self) -> impl Iterator<Item = usize> + '_ {
+        let is_told = |input: &usize| self.dependences.iter().any(|one| one.input == Some(*input));
+        (0..self.surfaces.over.len()).filter(is_told)
+    }
+
+    fn rows(&self) -> Vec<ParameterRow> {
         let row = |(place, name): (usize, &String)| {
             let values = self.surfaces.search.iter().map(|found| found.values[place]);
             let least = values.clone().fold(f32::INFINITY, f32::min);
             let most = values.fold(f32::NEG_INFINITY, f32::max);
             let cost = |input: Option<usize>| {
-                let found = dependences.iter().find(|d| d.parameter == place && d.input == input);
+                let found =
+                    self.dependences.iter().find(|d| d.parameter == place && d.input == input);
                 found.map_or("–".to_owned(), |d| match input {
                     Some(_) => format!("{:.1} %; {}", 100.0 * d.share, error_text(d.rmse)),
                     None => error_text(d.rmse),
                 })
             };
-            let inputs = 0..self.surfaces.over.len();
             ParameterRow {
                 name: name.clone(),
-                range: format!("{} … {}", format_constant(least), format_constant(most)),
-                at_bounds: self.surfaces.on_bounds(self.projection, place),
-                costs: inputs.map(Some).chain([None]).map(cost).collect(),
+                range: format!("{} … {}", end_text(least), end_text(most)),
+                at_bounds: self.surfaces.on_bounds(self.projection, place).map(|on| on.len()),
+                costs: self.inputs().map(Some).chain([None]).map(cost).collect(),
             }
         };
         self.surfaces.labels.iter().enumerate().map(row).collect()
     }
-}
-
-/// Says where parameters lie on their bounds, and what they hardly depend on.
-pub fn findings(
-    projection: &Projection,
-    surfaces: &Surfaces,
-    dependences: &[Dependence],
-) -> Vec<String> {
-    let mut found = Vec::new();
-    let all = surfaces.search.len();
-    let was = error_text(surfaces.rmse());
-    for (place, name) in surfaces.labels.iter().enumerate() {
-        let [lower, upper] = surfaces.on_bounds(projection, place);
-        for (count, bound) in [(lower, "lower"), (upper, "upper")] {
-            if count > 0 {
-                found.push(format!("{name} lies on its {bound} bound in {count} of {all} groups"));
-            }
-        }
-        let own = || dependences.iter().filter(|one| one.parameter == place && one.is_weak);
-        if let Some(constant) = own().find(|one| one.input.is_none()) {
-            let rmse = error_text(constant.rmse);
-            found.push(format!("{name} may as well be a constant: RMSE {rmse} for {was}"));
-            continue;
-        }
-        for one in own() {
-            let Some(input) = one.input.and_then(|input| surfaces.over.get(input)) else {
-                continue;
-            };
-            let rmse = error_text(one.rmse);
-            found.push(format!(
-                "{name} hardly depends on {}: with its mean over it, RMSE {rmse} for {was}",
-                input.name
-            ));
-        }
-    }
-    found
 }

@@ -1,6 +1,7 @@
-//! Panels beside and below each other: heat maps, with contours where asked for, and curves.
+//! Panels beside and below each other: heat maps, with contours where asked for, curves and dots.
 
-use crate::report::maps::{PANEL, bar, end_text, viridis};
+use super::scale::Scale;
+use crate::report::maps::{PANEL, bar_between, viridis};
 use crate::report::plot::text::Face;
 use crate::report::plot::{PlotError, Theme};
 use crate::report::raster::{Colour, Inks, Raster};
@@ -9,26 +10,32 @@ use crate::report::raster::{Colour, Inks, Raster};
 pub(super) struct Panel {
     /// The lines above it.
     pub title: [String; 2],
-    /// The name and the ends of each axis.
-    pub axes: [(String, [f32; 2]); 2],
+    /// What the axes say: across, up.
+    pub axes: [String; 2],
     pub content: Content,
     /// A place to mark, from 0 to 1 along each axis.
     pub mark: Option<[f32; 2]>,
 }
 
-/// What a panel shows.
+/// What a panel shows; all places are from 0 to 1.
 pub(super) enum Content {
-    /// Values, the lowest row first; grey where they are not finite.
-    Heat { across: usize, up: usize, values: Vec<f32>, contours: bool },
-    /// Points, from 0 to 1 along each axis; where one is not finite, the curve is interrupted.
+    /// Values at the crossings of ascending places along both axes, the lowest row first; grey where
+    /// they are not finite.
+    Heat { across: Vec<f32>, up: Vec<f32>, values: Vec<f32>, scale: Scale, contours: bool },
+    /// Points; where one is not finite, the curve is interrupted.
     Curve(Vec<[f32; 2]>),
+    /// Points, each with its value.
+    Dots { points: Vec<[f32; 2]>, values: Vec<f32>, scale: Scale },
 }
 
 const SIDE: usize = 24;
 const GAP: usize = 26;
 const HEADING: usize = 84;
 const TITLE: usize = 44;
-const BELOW: usize = 66;
+const BELOW: usize = 84;
+
+/// The fewest panels that a picture is wide enough for: its heading is a line of text.
+const ACROSS: usize = 3;
 
 /// The number of contours between a panel's least and its greatest value. By hand.
 const CONTOURS: f32 = 14.0;
@@ -40,11 +47,11 @@ pub(super) fn picture(
     theme: Theme,
 ) -> Result<Vec<u8>, PlotError> {
     let inks = Inks::of(theme);
-    let columns = rows.iter().map(Vec::len).max().unwrap_or(0).max(2);
+    let columns = rows.iter().map(Vec::len).max().unwrap_or(0).max(ACROSS);
     let width = 2 * SIDE + columns * (PANEL + GAP) - GAP;
     let height = HEADING + rows.len() * (TITLE + PANEL + BELOW);
     let mut raster = Raster::new(width, height, inks.paper);
-    raster.write(title, Face::bold(20.0), inks.ink, (SIDE, 38), width - 2 * SIDE);
+    raster.write(title, Face::bold(18.0), inks.ink, (SIDE, 38), width - 2 * SIDE);
     raster.write(subtitle, Face::regular(13.0), inks.faint, (SIDE, 62), width - 2 * SIDE);
     for (line, panels) in rows.iter().enumerate() {
         for (column, panel) in panels.iter().enumerate() {
@@ -58,35 +65,31 @@ pub(super) fn picture(
 fn draw(raster: &mut Raster, panel: &Panel, (left, top): (usize, usize), inks: &Inks) {
     let small = Face::regular(12.0);
     raster.write(&panel.title[0], Face::bold(14.0), inks.ink, (left, top + 14), PANEL);
-    raster.write(&panel.title[1], small, inks.faint, (left, top + 33), PANEL);
+    raster.write(&panel.title[1], small, inks.faint, (left, top + 33), PANEL + GAP - 4);
     let corner = (left, top + TITLE);
-    let ends = |(name, ends): &(String, [f32; 2])| {
-        format!("{name} {}…{}", end_text(ends[0]), end_text(ends[1]))
-    };
     let below = top + TITLE + PANEL;
+    for ((arrow, axis), line) in ["→", "↑"].into_iter().zip(&panel.axes).zip([16, 32]) {
+        let text = format!("{arrow} {axis}");
+        raster.write(&text, small, inks.faint, (left, below + line), PANEL + GAP - 4);
+    }
+    let colours = |raster: &mut Raster, scale: &Scale| {
+        bar_between(raster, (left, below + 40), scale.bar_texts(), inks);
+    };
     match &panel.content {
-        Content::Heat { across, up, values, contours } => {
-            heat(raster, corner, [*across, *up], values, *contours);
-            let text = format!("→ {}  ↑ {}", ends(&panel.axes[0]), ends(&panel.axes[1]));
-            raster.write(&text, small, inks.faint, (left, below + 16), PANEL + GAP - 4);
-            bar(raster, (left, below + 24), range(values), inks);
+        Content::Heat { across, up, values, scale, contours } => {
+            heat(raster, corner, [across, up], |cell| scale.place(values[cell]), *contours);
+            colours(raster, scale);
         }
         Content::Curve(points) => {
-            curve(raster, corner, points, inks);
-            raster.write(
-                &format!("→ {}", ends(&panel.axes[0])),
-                small,
-                inks.faint,
-                (left, below + 16),
-                PANEL,
-            );
-            raster.write(
-                &format!("↑ {}", ends(&panel.axes[1])),
-                small,
-                inks.faint,
-                (left, below + 32),
-                PANEL,
-            );
+            frame(raster, corner, inks);
+            curve(raster, corner, points);
+        }
+        Content::Dots { points, values, scale } => {
+            frame(raster, corner, inks);
+            for (point, value) in points.iter().zip(values) {
+                disc(raster, corner, *point, viridis(scale.place(*value)));
+            }
+            colours(raster, scale);
         }
     }
     if let Some([x, y]) = panel.mark {
@@ -94,41 +97,50 @@ fn draw(raster: &mut Raster, panel: &Panel, (left, top): (usize, usize), inks: &
     }
 }
 
-/// Returns the range of the values that are finite.
-fn range(values: &[f32]) -> [f32; 2] {
-    let finite = values.iter().copied().filter(|value| value.is_finite());
-    let [low, high] = finite.fold([f32::INFINITY, f32::NEG_INFINITY], |[low, high], value| {
-        [low.min(value), high.max(value)]
-    });
-    if low <= high { [low, high] } else { [0.0, 0.0] }
+/// The places around a pixel, and how far it is from the first to the second.
+type Around = (usize, usize, f32);
+
+/// Returns the places around each pixel along an axis.
+fn around(places: &[f32]) -> Vec<Around> {
+    let last = places.len() - 1;
+    let of = |pixel: usize| {
+        let at = (pixel as f32 + 0.5) / PANEL as f32;
+        let high = places.partition_point(|place| *place < at).min(last);
+        let low = if places[high] < at { high } else { high.saturating_sub(1) };
+        let apart = places[high] - places[low];
+        let share = if apart > 0.0 { ((at - places[low]) / apart).clamp(0.0, 1.0) } else { 0.0 };
+        (low, high, share)
+    };
+    (0..PANEL).map(of).collect()
 }
 
 fn heat(
     raster: &mut Raster,
     (left, top): (usize, usize),
-    [across, up]: [usize; 2],
-    values: &[f32],
+    [across, up]: [&[f32]; 2],
+    place: impl Fn(usize) -> f32,
     contours: bool,
 ) {
-    let [low, high] = range(values);
-    let span = (high - low).max(f32::MIN_POSITIVE);
-    let value = |x: usize, y: usize| {
-        let cell = (PANEL - 1 - y) * up / PANEL * across + x * across / PANEL;
-        (values[cell] - low) / span
+    let (columns, rows) = (around(across), around(up));
+    let nearest = |(low, high, share): Around| if share < 0.5 { low } else { high };
+    let at = |x: usize, y: usize| place(y * across.len() + x);
+    let between = |x: usize, y: usize| -> Option<f32> {
+        let ((x0, x1, u), (y0, y1, v)) = (columns[x], rows[PANEL - 1 - y]);
+        let below = at(x0, y0) + u * (at(x1, y0) - at(x0, y0));
+        let above = at(x0, y1) + u * (at(x1, y1) - at(x0, y1));
+        Some(below + v * (above - below)).filter(|value| value.is_finite())
     };
-    let level = |x: usize, y: usize| {
-        between(values, [across, up], x, y).map(|value| (CONTOURS * (value - low) / span).floor())
-    };
+    let level = |x: usize, y: usize| between(x, y).map(|value| (CONTOURS * value).floor());
+    let value = |x: usize, y: usize| at(nearest(columns[x]), nearest(rows[PANEL - 1 - y]));
     for y in 0..PANEL {
         for x in 0..PANEL {
             raster.blend(left + x, top + y, viridis(value(x, y)), 1.0);
+            if !contours || x + 1 == PANEL || y + 1 == PANEL {
+                continue;
+            }
             let here = level(x, y);
-            let is_edge = contours
-                && x + 1 < PANEL
-                && y + 1 < PANEL
-                && here.is_some()
-                && (level(x + 1, y) != here || level(x, y + 1) != here);
-            if is_edge {
+            let is_edge = |other: Option<f32>| other.is_some() && other != here;
+            if here.is_some() && (is_edge(level(x + 1, y)) || is_edge(level(x, y + 1))) {
                 raster.blend(left + x, top + y, WHITE, 0.6);
             }
         }
@@ -138,30 +150,21 @@ fn heat(
 const WHITE: Colour = [255; 3];
 const RED: Colour = [213, 40, 40];
 
-/// Interpolates values bilinearly at a pixel; none where one of them is not finite.
-fn between(values: &[f32], [across, up]: [usize; 2], x: usize, y: usize) -> Option<f32> {
-    let along = |pixel: usize, points: usize| {
-        let at = ((pixel as f32 + 0.5) / PANEL as f32 * points as f32 - 0.5)
-            .clamp(0.0, (points - 1) as f32);
-        let low = at as usize;
-        (low, (low + 1).min(points - 1), at.fract())
-    };
-    let (x0, x1, u) = along(x, across);
-    let (y0, y1, v) = along(PANEL - 1 - y, up);
-    let at = |x: usize, y: usize| values[y * across + x];
-    let below = at(x0, y0) + u * (at(x1, y0) - at(x0, y0));
-    let above = at(x0, y1) + u * (at(x1, y1) - at(x0, y1));
-    Some(below + v * (above - below)).filter(|value| value.is_finite())
-}
-
-fn curve(raster: &mut Raster, (left, top): (usize, usize), points: &[[f32; 2]], inks: &Inks) {
+fn frame(raster: &mut Raster, (left, top): (usize, usize), inks: &Inks) {
     for edge in 0..PANEL {
         for (x, y) in [(edge, 0), (edge, PANEL - 1), (0, edge), (PANEL - 1, edge)] {
             raster.blend(left + x, top + y, inks.faint, 0.35);
         }
     }
+}
+
+/// Returns the pixel of a place within a panel.
+fn pixel([x, y]: [f32; 2]) -> [f32; 2] {
     let last = (PANEL - 1) as f32;
-    let pixel = |[x, y]: [f32; 2]| [x.clamp(0.0, 1.0) * last, (1.0 - y.clamp(0.0, 1.0)) * last];
+    [x.clamp(0.0, 1.0) * last, (1.0 - y.clamp(0.0, 1.0)) * last]
+}
+
+fn curve(raster: &mut Raster, (left, top): (usize, usize), points: &[[f32; 2]]) {
     let mut dot = |[x, y]: [f32; 2]| {
         for (dx, dy) in [(0, 0), (1, 0), (0, 1), (1, 1)] {
             raster.blend(left + x as usize + dx, top + y as usize + dy, viridis(0.3), 1.0);
@@ -180,15 +183,28 @@ fn curve(raster: &mut Raster, (left, top): (usize, usize), points: &[[f32; 2]], 
     }
 }
 
-fn cross(raster: &mut Raster, (left, top): (usize, usize), [x, y]: [f32; 2]) {
-    let last = (PANEL - 1) as f32;
-    let [x, y] = [x.clamp(0.0, 1.0) * last, (1.0 - y.clamp(0.0, 1.0)) * last];
-    let (x, y) = (left as i32 + x as i32, top as i32 + y as i32);
+fn disc(raster: &mut Raster, (left, top): (usize, usize), at: [f32; 2], colour: Colour) {
+    const RADIUS: i32 = 4;
+    let [x, y] = pixel(at).map(|part| part as i32);
+    for dy in -RADIUS..=RADIUS {
+        for dx in -RADIUS..=RADIUS {
+            let (x, y) = (left as i32 + x + dx, top as i32 + y + dy);
+            let coverage = RADIUS as f32 + 0.5 - ((dx * dx + dy * dy) as f32).sqrt();
+            if x >= 0 && y >= 0 && coverage > 0.0 {
+                raster.blend(x as usize, y as usize, colour, coverage);
+            }
+        }
+    }
+}
+
+fn cross(raster: &mut Raster, (left, top): (usize, usize), at: [f32; 2]) {
+    let [x, y] = pixel(at).map(|part| part as i32);
     for away in -5..=5i32 {
         for (dx, dy) in [(away, 0), (away, 1), (0, away), (1, away)] {
-            let inside = x + dx >= left as i32 && y + dy >= top as i32;
-            if inside {
-                raster.blend((x + dx) as usize, (y + dy) as usize, RED, 1.0);
+            let inside = |at: i32| (0..PANEL as i32).contains(&at);
+            if inside(x + dx) && inside(y + dy) {
+                let (x, y) = (left as i32 + x + dx, top as i32 + y + dy);
+                raster.blend(x as usize, y as usize, RED, 1.0);
             }
         }
     }
