@@ -29,6 +29,11 @@ enum Tangent {
 }
 use Tangent::{Is, MinusOne, One, Zero};
 
+/// What stands for the infinite slope of a root at zero, or of an arc at its end: times a derivative
+/// that is zero, as beyond a clamp, it is zero; times any other, its square is beyond `f32`, so that
+/// the constant counts as one without a derivative.
+const STEEPEST: f32 = 1e37;
+
 impl Default for Differentiated {
     fn default() -> Differentiated {
         let draft =
@@ -169,8 +174,9 @@ impl Differentiated {
                 one(Is(self.push(Op::Neg, &[square])))
             }
             Op::Sqrt => {
-                let half = self.literal(0.5);
-                one(Is(self.push(Op::Div, &[half, y])))
+                let (half, steepest) = (self.literal(0.5), self.literal(STEEPEST));
+                let slope = self.push(Op::Div, &[half, y]);
+                one(Is(self.push(Op::Min, &[slope, steepest])))
             }
             Op::Rsqrt => {
                 let minus_half = self.literal(-0.5);
@@ -203,7 +209,9 @@ impl Differentiated {
                 let unit = self.literal(1.0);
                 let square = self.push(Op::Mul, &[a, a]);
                 let rest = self.push(Op::Sub, &[unit, square]);
+                let steepest = self.literal(STEEPEST);
                 let slope = self.push(Op::Rsqrt, &[rest]);
+                let slope = self.push(Op::Min, &[slope, steepest]);
                 one(Is(if op == Op::Asin { slope } else { self.push(Op::Neg, &[slope]) }))
             }
             Op::Atan => {
