@@ -1,6 +1,7 @@
 //! Templates: what they mean, what they refuse, and what is found by them.
 
 use lgp::dataset::{Dataset, axis};
+use lgp::deadline::Deadline;
 use lgp::program::{Names, Program, Template, parse, print};
 use lgp::search::{CostOf, Front, Goal, Method, Problem, Requirement, Search};
 
@@ -267,4 +268,21 @@ fn constants_alone_can_be_searched() {
     let front = Front::of(&searched(data.unwrap(), goal, 2));
     let best = front.members.last().unwrap();
     assert_eq!(best.holes, ["$a = 0.25", "$b = -1.5"]);
+}
+
+/// The values of a curve within matrices are fitted before its formula is searched for.
+#[test]
+fn a_curve_between_matrices_is_found_by_its_values() {
+    let curve = |v: f64| 0.25 * (1.0 + 15.0 * v).log2();
+    let axes = [axis("r", 0.0..=1.0), axis("g", 0.0..=1.0)];
+    let data = Dataset::sampled(axes, ["x", "y"], |[r, g]| {
+        let [a, b] = [0.7 * r + 0.3 * g, 0.2 * r + 0.8 * g].map(curve);
+        [1.2 * a - 0.2 * b, 1.1 * b - 0.1 * a]
+    });
+    let template = Some("(x, y) = $N(f($M(r, g)))".to_owned());
+    let goal = Goal { template, max_cost: 30.0, ..Goal::default() };
+    let problem = Problem::of(data.unwrap()).goal(goal).build().unwrap();
+    let mut search = Search::new(problem, Method { islands: 1, ..Method::default() }).unwrap();
+    search.inject_curves_until(&Deadline::NEVER);
+    assert!(search.best_error(30.0) < 1e-4, "{}", search.best_error(30.0));
 }

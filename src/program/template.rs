@@ -53,6 +53,11 @@ impl Hole {
         self.parameters.is_empty()
     }
 
+    /// Returns the child's input that is each parameter.
+    pub fn inputs(&self) -> &[usize] {
+        &self.inputs
+    }
+
     /// Returns the child's outputs that are its values.
     pub fn outputs(&self) -> std::ops::Range<usize> {
         self.outputs.clone()

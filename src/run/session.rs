@@ -290,6 +290,7 @@ impl Session {
             return Ok(());
         }
         self.checkpoint();
+        self.search.inject_curves_until(&starting);
         let asked = self.run.exhaustive;
         let (cost, most) = asked.map_or(Enumeration::USUAL, |cost| (cost, MAX_ENUMERATED));
         self.search.enumerate_until(cost, most, &starting);

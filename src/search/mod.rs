@@ -23,6 +23,7 @@
 //! ```
 
 mod common_factor;
+mod curves;
 mod domain;
 mod enumerate;
 mod finish;
