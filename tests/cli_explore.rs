@@ -4,8 +4,9 @@
 
 mod command;
 
-use command::{lgp, lgp_here, succeed, text};
+use command::{command, lgp, lgp_here, succeed, text};
 use serde_json::Value;
+use std::process::Command;
 use tempfile::TempDir;
 
 /// A table of a product of a function of `n_dot_v` and one of `roughness`, beside a column that does
@@ -40,6 +41,14 @@ fn a_page_says_what_matters_and_proposes_a_template() {
         assert!(page.contains(expected), "{expected} is not in\n{page}");
     }
     assert!(!succeed(folder.path(), &["info", "d e.bin"]).contains("template"));
+    // What is proposed is found as it is printed.
+    let proposed = page.lines().map(str::trim).find(|line| line.starts_with("lgp search")).unwrap();
+    let program = command(folder.path(), &[]).get_program().to_owned();
+    let lgp = format!("lgp() {{ '{}' \"$@\"; }}", program.display());
+    let script = format!("{lgp}; {proposed} --time 1s --out run");
+    let shell = Command::new("sh").current_dir(folder.path()).args(["-c", &script]).output();
+    assert!(shell.unwrap().status.success(), "{script}");
+    assert!(succeed(folder.path(), &["front", "run"]).contains("with f(n_dot_v) = "));
 }
 
 #[test]

@@ -37,7 +37,11 @@ fuzz_target!(|content: &[u8]| {
         );
         read.expect("what was written can be read").expect("as an array")
     };
-    let bits = |array: &Array| array.values.iter().map(|value| value.to_bits()).collect::<Vec<_>>();
+    // Zeros keep their signs; a signalling NaN comes back quiet.
+    let bits = |array: &Array| {
+        let bits = |value: &f32| if value.is_nan() { f32::NAN } else { *value }.to_bits();
+        array.values.iter().map(bits).collect::<Vec<_>>()
+    };
     if !array.size.is_empty() {
         assert_eq!(bits(&again("t.npy", &to_npy(&array))), bits(&array));
     }
