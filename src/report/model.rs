@@ -95,7 +95,9 @@ impl Priced<'_> {
     }
 
     fn member(&self, member: &FrontMember) -> Formula {
+        let template = self.run.goal.template.iter().map(|text| run::one_line(text));
         Formula {
+            template: template.chain(member.holes.iter().cloned()).collect(),
             code: self.code(&member.program),
             header: header_lines(&run::header(self.run, member)),
             verdict: serde_json::to_value(&member.verdict).expect("plain data"),
@@ -140,7 +142,7 @@ impl Priced<'_> {
             validation: errors(&member.validation_error()),
             verdict: serde_json::Value::Null,
             formula: member.formula.clone(),
-            holes: member.holes.clone(),
+            template: Vec::new(),
             header: Vec::new(),
             code: Vec::new(),
             mathml: emit::mathml(&snippet),

@@ -38,7 +38,7 @@ pub fn cut(front: &Front) -> String {
     let title = axis_title(front.measure);
     match front.measure {
         _ if front.is_integrated() => format!(
-            "The front holds each formula that no cheaper one equals in {title} over the whole domain; errors are integrated adaptively, to within `± RMSE`, and `+ max` is what the largest may be above what was found.\n"
+            "The front holds each formula that no cheaper one equals in {title} over the whole domain; errors are integrated adaptively, to within \"± RMSE\", and \"+ max\" is what the largest may be above what was found.\n"
         ),
         Measure::Max => format!(
             "The front holds each formula that no cheaper one equals in {title} on the search split, where {title} was minimised.\n"

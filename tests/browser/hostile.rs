@@ -82,7 +82,7 @@ fn formula(program: &Program, names: &Names, text: &str, name: Option<&str>) -> 
         validation: [0.1, 0.2, 0.1],
         verdict: serde_json::Value::Null,
         formula: text.to_owned(),
-        holes: vec![text.to_owned()],
+        template: vec![text.to_owned()],
         header: header.to_vec(),
         code: Language::ALL.iter().map(code).collect(),
         mathml: emit::mathml(&snippet),

@@ -111,8 +111,8 @@ pub struct Formula {
     pub verdict: serde_json::Value,
     /// The formula's text.
     pub formula: String,
-    /// What fills the holes of the run's template, if it has one.
-    pub holes: Vec<String>,
+    /// The run's template and what fills its holes, if it has one; none for published formulas.
+    pub template: Vec<String>,
     /// Lines of the comment above each function.
     pub header: Vec<String>,
     /// The code in each language.

@@ -26,7 +26,7 @@ function drawFormula() {
     html("div", { class: "row" }, html("h2", { id: "heading", style: "margin:0;color:var(--ink)" }, heading), step(-1), step(1)),
     html("div", { class: "chips" }, verdictChips(one.verdict), one.name ? html("span", { class: "chip" }, "published") : null),
     costTable(one), errorTable(one), math,
-    ...(one.holes.length ? [html("pre", { id: "holes" }, one.holes.join("\n"))] : []),
+    ...(one.template.length ? [html("pre", { id: "template" }, one.template.join("\n"))] : []),
     ...(one.code.length ? codeBox(one, emitted) : [html("pre", {}, one.formula)]),
   );
 }
