@@ -146,4 +146,9 @@ fn what_is_no_template_is_refused_with_its_place_and_nothing_is_written() {
         assert!(message.contains(reason) && message.contains("--template"), "{message}");
         assert_eq!(front(here, "run1"), before);
     }
+    let to = ["search", "d.bin", "--template", TEMPLATE, "--guess", "h(x) = 1", "--out", "run1"];
+    let refused = lgp(here, &[&to[..], &["--force"]].concat());
+    let message = text(&refused.stderr);
+    assert!(message.contains("--guess: formula, line 1, column 1: the template has no hole `h`"));
+    assert_eq!(front(here, "run1"), before);
 }

@@ -206,7 +206,11 @@ fn guesses(
     template: Option<&Template>,
 ) -> Result<Vec<Draft>, Failure> {
     let names = dataset.names();
-    Ok(texts.iter().map(|text| guess(text, &names, template)).collect::<Result<_, _>>()?)
+    let read = |text: &String| {
+        let read = guess(text, &names, template);
+        read.map_err(|error| Failure::input(format!("--guess: {error}")))
+    };
+    texts.iter().map(read).collect()
 }
 
 /// Returns the template that is asked for.
