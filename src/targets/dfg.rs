@@ -7,18 +7,18 @@
 //! over the samples of `(1 - (1 - v·h)^5) W` is `scale`, that of
 //! `(1 - v·h)^5 W` is `bias`.
 //!
-//! Method: for normals at θ from n drawn with u = t²/(1 + t²), t = tan θ / α, the light is above
-//! the horizon for azimuths |φ| < φmax(θ). φmax is π up to θ = (π/2 - θv) / 2 and falls to 0 at
-//! (π/2 + θv) / 2. The double-exponential rule integrates over φ from 0 to φmax, and over u in each
-//! of the two ranges: all that is stiff (a narrow lobe, grazing light) lies at an end of one of
-//! them. u is carried with its complement, which keeps the far tail of a narrow lobe.
+//! Method: for normals at θ from n the light is above the horizon for azimuths
+//! |φ| < φmax(θ). φmax is π up to θ = (π/2 - θv) / 2 and falls to 0 at (π/2 + θv) / 2. The
+//! double-exponential rule integrates over φ from 0 to φmax, and over u in each of the two ranges:
+//! all that is stiff (a narrow lobe, grazing light) lies at an end of one of them.
 
+use super::normals::{Normal, mean, reflected_azimuths};
 use super::sampling::{SAMPLING, SAMPLING_SEED};
 use super::table::{Sample, Table};
 use super::{Choices, Make, Parameter, Recipe, Target, points};
 use crate::dataset::Axis;
 use crate::microfacet::{fresnel, ggx};
-use crate::quadrature::{Abscissa, TanhSinh};
+use crate::quadrature::TanhSinh;
 use std::cell::Cell;
 use std::f64::consts::{FRAC_PI_2, PI};
 
@@ -101,9 +101,9 @@ pub fn integrate_within(
     let theta_v = view.sine.atan2(view.cosine);
     let all_azimuths = Normal::at_angle(0.5 * (FRAC_PI_2 - theta_v), alpha);
     let no_azimuths = Normal::at_angle(0.5 * (FRAC_PI_2 + theta_v), alpha);
-    let start = Normal { u: 0.0, complement: 1.0 };
-    let full = integrate_normals(rule, &view, start, all_azimuths);
-    let partial = integrate_normals(rule, &view, all_azimuths, no_azimuths);
+    let over = |from, to| mean(rule, tolerance, from, to, |normal| view.ring(rule, normal));
+    let full = over(Normal::MACROSCOPIC, all_azimuths);
+    let partial = over(all_azimuths, no_azimuths);
     let [scale, bias, error] = std::array::from_fn(|term| full[term] + partial[term]);
     Dfg { scale, bias, error, evaluations: view.evaluations.get() }
 }
@@ -117,28 +117,6 @@ struct View {
     evaluations: Cell<usize>,
 }
 
-/// A normal's sample coordinate u and 1 - u, each to full relative precision.
-#[derive(Clone, Copy)]
-struct Normal {
-    u: f64,
-    complement: f64,
-}
-
-impl Normal {
-    fn at_angle(theta: f64, alpha: f64) -> Normal {
-        let t = theta.tan() / alpha;
-        let complement = 1.0 / (1.0 + t * t);
-        Normal { u: t * t * complement, complement }
-    }
-
-    /// Cosine and sine of the angle from n.
-    fn direction(self, alpha: f64) -> (f64, f64) {
-        let lifted = alpha * alpha * self.u;
-        let norm = self.complement + lifted;
-        ((self.complement / norm).sqrt(), (lifted / norm).sqrt())
-    }
-}
-
 impl View {
     fn new(cosine: f64, alpha: f64, masking: Masking, tolerance: f64) -> View {
         let sine = ((1.0 - cosine) * (1.0 + cosine)).sqrt();
@@ -148,9 +126,7 @@ impl View {
     /// Integrates over azimuth: the means of scale and bias, and the error of either.
     fn ring(&self, rule: &TanhSinh, normal: Normal) -> [f64; 3] {
         let (n_dot_h, sin_h) = normal.direction(self.alpha);
-        let horizon = -self.cosine * (n_dot_h - sin_h) * (n_dot_h + sin_h);
-        let reach = 2.0 * n_dot_h * sin_h * self.sine;
-        let phi_max = if horizon <= -reach { PI } else { (horizon / reach).min(1.0).acos() };
+        let phi_max = reflected_azimuths([self.cosine, self.sine], [n_dot_h, sin_h]);
         let [scale, bias] = rule
             .integrate_all(0.0, phi_max, self.tolerance, |phi| self.terms(n_dot_h, sin_h, phi.x));
         self.evaluations.set(self.evaluations.get() + scale.evaluations);
@@ -172,21 +148,6 @@ impl View {
         let fresnel = fresnel::schlick_weight(v_dot_h);
         [(1.0 - fresnel) * weight, fresnel * weight]
     }
-}
-
-/// Integrates over a range of normals: scale, bias, and the error of either.
-fn integrate_normals(rule: &TanhSinh, view: &View, from: Normal, to: Normal) -> [f64; 3] {
-    // The range as the difference that loses no digits.
-    let width = if from.u < 0.5 { to.u - from.u } else { from.complement - to.complement };
-    if width <= 0.0 {
-        return [0.0; 3];
-    }
-    let ring = |at: Abscissa| {
-        let normal = Normal { u: from.u + at.from_a, complement: to.complement + at.from_b };
-        view.ring(rule, normal)
-    };
-    let [scale, bias, inner] = rule.integrate_all(0.0, width, view.tolerance, ring);
-    [scale.value, bias.value, scale.error.max(bias.error) + inner.value.abs()]
 }
 
 /// Returns the table: search split at the cell centres of a regular grid on

@@ -16,6 +16,7 @@ pub mod area_light;
 pub mod area_norm;
 pub mod beckmann_g1;
 pub mod dfg;
+pub mod dielectric_albedo;
 pub mod disney_zh;
 mod error;
 pub mod fresnel;
@@ -23,6 +24,7 @@ pub mod ggx_d;
 pub mod hammon;
 mod lobe;
 pub mod lobe_plane;
+mod normals;
 mod recipe;
 mod sampling;
 mod simplex;
@@ -110,6 +112,7 @@ pub fn targets() -> &'static [Target] {
         area_light::TARGET,
         disney_zh::TARGET,
         lobe_plane::TARGET,
+        dielectric_albedo::TARGET,
     ]
 }
 

@@ -5,6 +5,7 @@ mod area_light;
 mod area_norm;
 mod committed;
 mod dfg;
+mod dielectric_albedo;
 mod disney_zh;
 mod lobe_plane;
 mod recipes;
