@@ -7,10 +7,11 @@
 //! over the samples of `(1 - (1 - v·h)^5) W` is `scale`, that of
 //! `(1 - v·h)^5 W` is `bias`.
 //!
-//! Method: for normals at θ from n the light is above the horizon for azimuths
-//! |φ| < φmax(θ). φmax is π up to θ = (π/2 - θv) / 2 and falls to 0 at (π/2 + θv) / 2. The
-//! double-exponential rule integrates over φ from 0 to φmax, and over u in each of the two ranges:
-//! all that is stiff (a narrow lobe, grazing light) lies at an end of one of them.
+//! Method: for normals at θ from n drawn with u = t²/(1 + t²), t = tan θ / α, the light is above
+//! the horizon for azimuths |φ| < φmax(θ). φmax is π up to θ = (π/2 - θv) / 2 and falls to 0 at
+//! (π/2 + θv) / 2. The double-exponential rule integrates over φ from 0 to φmax, and over u in each
+//! of the two ranges: all that is stiff (a narrow lobe, grazing light) lies at an end of one of
+//! them.
 
 use super::normals::{Normal, mean, reflected_azimuths};
 use super::sampling::{SAMPLING, SAMPLING_SEED};
