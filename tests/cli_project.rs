@@ -54,6 +54,16 @@ fn search(folder: &Path, line: &str, generations: &str) -> String {
     succeed(folder, &[&own[..], &brief].concat())
 }
 
+/// A parameter that matters only far below its start and most of its range is no idle one.
+#[test]
+fn influence_is_looked_for_on_a_logarithmic_scale() {
+    let folder = lobe("8");
+    let bounds = ["--bounds", "p=0.1..10,cap=1e-4..1e4", "--log", "cap"];
+    let words = ["y = min($p*x, $cap)", "lobe.bin", "--over", "alpha,size", "-o", "params.bin"];
+    let (code, _, said) = project(folder.path(), &[&words[..], &bounds].concat());
+    assert_eq!(code, Some(0), "{said}");
+}
+
 /// The least RMSE of a front's table.
 fn least_rmse(front: &str) -> f64 {
     let member = |line: &str| {

@@ -377,6 +377,10 @@ fn probed(parameters: &[Parameter], starts: &[f32], probe: usize, only: Option<u
         let share = (0.618_034 * (probe + 1) as f32 + 0.324_718 * place as f32).fract();
         let [low, high] = parameter.bounds;
         match high - low {
+            // A parameter may matter only within a few of its orders of magnitude.
+            width if width.is_finite() && parameter.scale == Scale::Logarithmic => {
+                (low * (high / low).powf(share)).clamp(low, high)
+            }
             width if width.is_finite() => low + width * share,
             _ => (start.abs().max(0.1) * (6.0 * share - 3.0).exp2()).clamp(low, high),
         }
