@@ -90,11 +90,14 @@ fn error_lines(run: &Run, member: &FrontMember) -> Vec<String> {
     ]
 }
 
-/// Returns a text of several lines in one: a line's end is a statement's.
+/// Returns a formula text of several lines in one, without comments: a line's end is a statement's.
 pub fn one_line(text: &str) -> String {
-    let lines =
-        text.lines().map(|line| line.trim().trim_end_matches(';')).filter(|l| !l.is_empty());
-    lines.collect::<Vec<_>>().join("; ")
+    let code = |line: &str| -> String {
+        let end = line.find('#').into_iter().chain(line.find("//")).min();
+        line[..end.unwrap_or(line.len())].trim().trim_end_matches(';').to_owned()
+    };
+    let lines: Vec<String> = text.lines().map(code).filter(|line| !line.is_empty()).collect();
+    lines.join("; ")
 }
 
 /// Returns the seed of a search, or those of a union.
@@ -142,4 +145,15 @@ pub fn domains(inputs: &[Column]) -> String {
         format!("{} in [{low}, {high}]", column.name)
     };
     inputs.iter().map(domain).collect::<Vec<_>>().join(", ")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::one_line;
+
+    #[test]
+    fn one_line_has_all_statements_and_no_comments() {
+        let text = "# a lobe\na = r*r; // width\n\n  b = a + 1\ny = b # that is all\n";
+        assert_eq!(one_line(text), "a = r*r; b = a + 1; y = b");
+    }
 }
