@@ -5,12 +5,12 @@
 //! Definition: the lobe `K(θ; r) = D(θ/2) cos θ` over its peak, D being GGX with α = r², 0 below
 //! its own horizon. Seen from distance 1 straight above, it draws `K(atan ρ; r)` at ρ on the plane.
 //! The roughness r' ≤ 1, a scale s and an offset o are fitted by least squares, over the disc ρ <
-//! `reach`, to what another lobe draws; r' is the output, s and o are discarded.
+//! `reach`, to what another lobe draws; r' is the output, s and o are given on request.
 //! - over distance d: the other lobe is perpendicular, too, at distance d, and draws
 //!   `K(atan(ρ/d); r)`.
 //! - over angle ψ: the other lobe starts at height 1 and hits the plane at ψ from its normal, in
-//!   the disc's centre; the fitted lobe may shift along the line from there to the foot of the
-//!   plane's normal, within the disc.
+//!   the disc's centre; the fitted lobe may shift along the line through there and the foot of the
+//!   plane's normal, within the disc: `shift` is 0 at the foot and 1 where the lobe hits.
 //!
 //! For narrow lobes r' = r √d, and r' = r / cos^(3/4) ψ: a spot of width α is wider by 1/cos ψ
 //! across and by 1/cos² ψ along the line, and α' follows the geometric mean.
@@ -29,6 +29,8 @@ use std::f64::consts::{FRAC_PI_3, PI};
 
 /// The largest estimated error that [`generate`](super::generate) accepts: the fit is of a model to a model.
 pub const ALLOWED_ERROR: f64 = 1e-5;
+const ROUGHNESS: &str = "roughness";
+const ALL: &str = "all";
 const DISTANCE: &str = "distance";
 const ANGLE: &str = "angle";
 /// Sampled instead of roughness = 0, where the lobe is a single direction.
@@ -51,6 +53,12 @@ pub(super) const TARGET: Target = Target {
             default: "2",
             choices: Choices::OneOf(&["2", "4"]),
         },
+        Parameter {
+            name: "outputs",
+            description: "the roughness, or all that is fitted: scale and offset, too, or shift",
+            default: ROUGHNESS,
+            choices: Choices::OneOf(&[ROUGHNESS, ALL]),
+        },
         points("64", 1024),
         SAMPLING,
         SAMPLING_SEED,
@@ -58,13 +66,37 @@ pub(super) const TARGET: Target = Target {
     make: Make::Table(table),
 };
 
-/// A fitted roughness, and its error.
+/// A fitted lobe, and its error.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Fit {
     /// The fitted roughness, in (0, 1].
     pub roughness: f64,
-    /// The difference from the result of a coarser rule.
+    /// What the fitted lobe is multiplied by.
+    pub scale: f64,
+    /// What is added to it.
+    pub offset: f64,
+    /// Where on the plane it lies: 0 at the foot of the plane's normal, 1 where the other lobe hits;
+    /// 1 for perpendicular ones.
+    pub shift: f64,
+    /// The difference of the roughness from the result of a coarser rule.
     pub error: f64,
+}
+
+impl Fit {
+    fn of(lines: [Line; 2], shift: f64) -> Fit {
+        let [fine, coarse] = lines;
+        let Line { roughness, scale, offset, .. } = fine;
+        Fit { roughness, scale, offset, shift, error: (roughness - coarse.roughness).abs() }
+    }
+}
+
+/// A lobe's roughness, and what is left at the best scale and offset.
+#[derive(Clone, Copy)]
+struct Line {
+    roughness: f64,
+    scale: f64,
+    offset: f64,
+    residual: f64,
 }
 
 /// Fits a perpendicular lobe of `roughness` in (0, 1] at a `distance` > 0, over the disc of radius
@@ -75,11 +107,10 @@ pub fn fit_distance(roughness: f64, distance: f64, reach: f64) -> Fit {
         let drawn = |[x, _]: [f64; 2]| kernel(alpha, (x / distance).powi(2));
         let disc = Disc::new(alpha * distance, reach, [points, 1], drawn);
         let from = disc.best_start(roughness * distance.sqrt());
-        let [fitted] = simplex::minimum([from], 0.05, |[fitted]| disc.misfit(fitted, 0.0));
-        fitted.exp().min(1.0)
+        let [fitted] = simplex::minimum([from], 0.05, |[fitted]| disc.line(fitted, 0.0).residual);
+        disc.line(fitted, 0.0)
     };
-    let [fine, coarse] = [80, 60].map(fit);
-    Fit { roughness: fine, error: (fine - coarse).abs() }
+    Fit::of([80, 60].map(fit), 1.0)
 }
 
 /// Fits a lobe of `roughness` in (0, 1] from height 1 at `angle` in [0, π/2) from the plane's
@@ -99,13 +130,16 @@ pub fn fit_angle(roughness: f64, angle: f64, reach: f64) -> Fit {
     let fit = |[points, azimuths]: [usize; 2]| {
         let disc = Disc::new(alpha / cos, reach, [points, azimuths], drawn);
         let from = disc.best_start(roughness / cos.powf(0.75));
-        let [fitted, _] = simplex::minimum([from, 0.0], 0.05, |[fitted, shift]| {
-            disc.misfit(fitted, (shift * alpha / cos).clamp(-reach, reach))
+        let at = |shift: f64| (shift * alpha / cos).clamp(-reach, reach);
+        let [fitted, shift] = simplex::minimum([from, 0.0], 0.05, |[fitted, shift]| {
+            disc.line(fitted, at(shift)).residual
         });
-        fitted.exp().min(1.0)
+        (disc.line(fitted, at(shift)), at(shift))
     };
     let [fine, coarse] = [[40, 16], [30, 12]].map(fit);
-    Fit { roughness: fine, error: (fine - coarse).abs() }
+    // At a right angle there is no line to shift along.
+    let shift = if sin > 0.0 { 1.0 + fine.1 * cos / sin } else { 1.0 };
+    Fit::of([fine.0, coarse.0], shift)
 }
 
 /// A point of the disc, and the lobe's value there.
@@ -152,10 +186,11 @@ impl Disc {
         Disc { spots, area, mean }
     }
 
-    /// Returns the squared residual, at the best scale and offset, of a fitted lobe with the
-    /// logarithm of its roughness and its place on the x axis.
-    fn misfit(&self, log_roughness: f64, shift: f64) -> f64 {
-        let alpha = (2.0 * log_roughness.min(0.0)).exp();
+    /// Fits scale and offset of a lobe with the logarithm of its roughness and its place on the x
+    /// axis; the residual is the sum of squares.
+    fn line(&self, log_roughness: f64, shift: f64) -> Line {
+        let roughness = log_roughness.min(0.0).exp();
+        let alpha = roughness * roughness;
         let fitted = |spot: &Spot| kernel(alpha, (spot.x - shift).powi(2) + spot.y_squared);
         let values: Vec<f64> = self.spots.iter().map(fitted).collect();
         let pairs = || self.spots.iter().zip(&values);
@@ -171,13 +206,14 @@ impl Disc {
             let rest = spot.drawn - self.mean - scale * (value - mean);
             spot.area * rest * rest
         };
-        pairs().map(residual).sum()
+        let offset = self.mean - scale * mean;
+        Line { roughness, scale, offset, residual: pairs().map(residual).sum() }
     }
 
     /// Returns the logarithm of the best roughness near that of the law, up to 1.
     fn best_start(&self, law: f64) -> f64 {
         let candidate = |k: i32| (law.ln() + 0.1 * f64::from(k)).min(0.0);
-        let misfits = (-10..=10).map(|k| (self.misfit(candidate(k), 0.0), candidate(k)));
+        let misfits = (-10..=10).map(|k| (self.line(candidate(k), 0.0).residual, candidate(k)));
         misfits.min_by(|a, b| a.0.total_cmp(&b.0)).map_or(0.0, |best| best.1)
     }
 }
@@ -201,17 +237,36 @@ fn table(recipe: &Recipe) -> Table {
             Axis { domain: [0.25, 4.0], spacing: Spacing::Logarithmic, ..Axis::unit(DISTANCE) }
         }
     };
-    Table::new(
-        recipe,
-        vec![Axis { least: Some(SMOOTHEST), ..Axis::unit("roughness") }, other],
-        &[("fitted_roughness", "1")],
-        ALLOWED_ERROR,
-        move |at| {
-            let fit = match by_angle {
-                true => fit_angle(at[0], at[1], reach),
-                false => fit_distance(at[0], at[1], reach),
-            };
-            Sample { values: [fit.roughness], error: fit.error }
-        },
-    )
+    let axes = vec![Axis { least: Some(SMOOTHEST), ..Axis::unit("roughness") }, other];
+    let fit = move |at: &[f64]| match by_angle {
+        true => fit_angle(at[0], at[1], reach),
+        false => fit_distance(at[0], at[1], reach),
+    };
+    match (recipe.get("outputs") == Some(ALL), by_angle) {
+        (false, _) => outputs(recipe, axes, const { &[FITTED] }, fit, |fit| [fit.roughness]),
+        (true, true) => {
+            let columns = const { &[FITTED, ("shift", "1")] };
+            outputs(recipe, axes, columns, fit, |fit| [fit.roughness, fit.shift])
+        }
+        (true, false) => {
+            let columns = const { &[FITTED, ("scale", "1"), ("offset", "1")] };
+            outputs(recipe, axes, columns, fit, |fit| [fit.roughness, fit.scale, fit.offset])
+        }
+    }
+}
+
+const FITTED: (&str, &str) = ("fitted_roughness", "1");
+
+/// Returns the table of some of what is fitted.
+fn outputs<const N: usize>(
+    recipe: &Recipe,
+    axes: Vec<Axis>,
+    columns: &'static [(&'static str, &'static str); N],
+    fit: impl Fn(&[f64]) -> Fit + Send + Sync + 'static,
+    values: fn(Fit) -> [f64; N],
+) -> Table {
+    Table::new(recipe, axes, columns, ALLOWED_ERROR, move |at| {
+        let fit = fit(at);
+        Sample { values: values(fit), error: fit.error }
+    })
 }
