@@ -30,6 +30,7 @@ mod sampling;
 mod simplex;
 pub mod smith_g1;
 pub mod smith_g2;
+pub mod sphere_light;
 mod table;
 
 pub use error::Error;
@@ -110,6 +111,7 @@ pub fn targets() -> &'static [Target] {
         hammon::TARGET,
         area_norm::TARGET,
         area_light::TARGET,
+        sphere_light::TARGET,
         disney_zh::TARGET,
         lobe_plane::TARGET,
         dielectric_albedo::TARGET,

@@ -10,6 +10,7 @@ mod disney_zh;
 mod lobe_plane;
 mod recipes;
 mod sampling;
+mod sphere_light;
 
 use std::path::{Path, PathBuf};
 
