@@ -3,6 +3,19 @@
 
 use super::{Real, fresnel};
 
+/// Disney's diffuse lobe: `(1 + (F - 1)(1 - n·l)⁵)(1 + (F - 1)(1 - n·v)⁵) / π`,
+/// `F = 1/2 + 2 roughness (l·h)²` with `(l·h)² = (1 + l·v)/2` (Burley, "Physically Based Shading at
+/// Disney", 2012, §5.3). Cosines in [0, 1], `l_dot_v` in [-1, 1], perceptual `roughness` in [0, 1].
+pub fn disney<T: Real>(n_dot_l: T, n_dot_v: T, l_dot_v: T, roughness: T) -> T {
+    let beyond = T::of(-0.5) + roughness * (T::of(1.0) + l_dot_v);
+    let side = |cosine: T| {
+        let rest = T::of(1.0) - cosine;
+        let square = rest * rest;
+        T::of(1.0) + beyond * (square * square * rest)
+    };
+    side(n_dot_l) * side(n_dot_v) / T::PI
+}
+
 /// The normalisation `21 / (20π)` of `k ∫ (1 - (1 - n·l)^5) (n·l) dω = 1`.
 pub fn transmission_norm<T: Real>() -> T {
     T::of(1.05) / T::PI

@@ -3,8 +3,8 @@
 use super::Error;
 use super::plot::Theme;
 use super::spheres::{
-    DIFFERENCE_TIMES, Environment, Labels, Material, Settings, SphereTable, Spheres, difference,
-    displayed_rmse, picture,
+    DIFFERENCE_TIMES, Environment, Labels, Material, Settings, Shape, SphereTable, Spheres,
+    difference, displayed_rmse, picture,
 };
 use crate::dataset::Dataset;
 use crate::program::Program;
@@ -71,7 +71,7 @@ impl Drawing<'_> {
             .map(|(truth, made)| displayed_rmse(truth, made, self.size).powi(2));
         let rmse = (squares.sum::<f64>() / rows[0].len() as f64).sqrt();
         let labels = theme.map(|theme| self.labels(name, spheres.uses_f0(), theme));
-        Ok((picture(&rows, self.size, labels.as_ref())?, rmse))
+        Ok((picture(&rows, self.size, Shape::Sphere, labels.as_ref())?, rmse))
     }
 
     fn labels(&self, name: &str, uses_f0: bool, theme: Theme) -> Labels {

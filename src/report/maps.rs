@@ -58,7 +58,7 @@ pub struct Maps {
 pub struct OutputMaps {
     /// The output's name.
     pub name: String,
-    /// By column, the values on the plane.
+    /// By column, the values on the plane; an output of fewer columns has the last ones.
     pub columns: Vec<Vec<f32>>,
 }
 
@@ -122,7 +122,8 @@ fn block(
     for (c, values) in output.columns.iter().enumerate() {
         let x = left + c * (PANEL + GAP);
         let y = top + BLOCK_HEADING;
-        for (line, text) in maps.columns[c].iter().enumerate() {
+        let title = maps.columns.len() - output.columns.len() + c;
+        for (line, text) in maps.columns[title].iter().enumerate() {
             let colour = if line == 0 { inks.ink } else { inks.faint };
             raster.write(text, small, colour, (x, y - 25 + 17 * line), PANEL);
         }
@@ -133,7 +134,9 @@ fn block(
                 difference_colour((values[i] - truth[i]).abs(), span)
             });
         } else {
-            for (y, (words, ends)) in [18, 92].into_iter().zip(scales(low, high)) {
+            // Nothing differs from a truth that stands alone.
+            let scales = scales(low, high).into_iter().take(output.columns.len());
+            for (y, (words, ends)) in [18, 92].into_iter().zip(scales) {
                 raster.write(words, small, inks.faint, (below.0, below.1 + y), PANEL);
                 bar(raster, (below.0, below.1 + y + 10), ends, inks);
             }

@@ -9,7 +9,7 @@ mod picture;
 mod shading;
 mod table;
 
-pub use picture::{Labels, picture};
+pub use picture::{Labels, Shape, picture};
 pub use shading::Environment;
 pub use table::SphereTable;
 

@@ -20,19 +20,29 @@ pub struct Labels {
     pub theme: Theme,
 }
 
+/// What of each square is drawn.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Shape {
+    /// The sphere in it.
+    Sphere,
+    /// All of it.
+    Square,
+}
+
 const GAP: usize = 12;
 const SIDE: usize = 24;
 const HEADING: usize = 96;
 const ROW_HEADING: usize = 28;
 
 /// Returns a PNG of squares of `size` pixels, row by row, each the colours of
-/// [`super::Spheres::shade`]; without labels, the squares alone, side by side.
+/// [`super::Spheres::shade`], or other pictures; without labels, the squares alone, side by side.
 ///
 /// # Errors
 /// Those of encoding.
 pub fn picture(
     rows: &[Vec<Vec<[f32; 3]>>],
     size: usize,
+    shape: Shape,
     labels: Option<&Labels>,
 ) -> Result<Vec<u8>, PlotError> {
     let columns = rows.first().map_or(0, Vec::len);
@@ -49,7 +59,7 @@ pub fn picture(
     let mut raster = Raster::new(width, height, inks.paper);
     for (r, row) in rows.iter().enumerate() {
         for (c, square) in row.iter().enumerate() {
-            sphere(&mut raster, at(r, c), size, square);
+            paint(&mut raster, at(r, c), size, shape, square);
         }
     }
     let Some(labels) = labels else { return raster.png() };
@@ -68,12 +78,21 @@ pub fn picture(
     raster.png()
 }
 
-fn sphere(raster: &mut Raster, (left, top): (usize, usize), size: usize, square: &[[f32; 3]]) {
+fn paint(
+    raster: &mut Raster,
+    (left, top): (usize, usize),
+    size: usize,
+    shape: Shape,
+    square: &[[f32; 3]],
+) {
     let centre = |i: usize| i as f32 + 0.5 - size as f32 / 2.0;
     for (i, colour) in square.iter().enumerate() {
         let (x, y) = (i % size, i / size);
         let distance = centre(x).hypot(centre(y));
-        let coverage = RADIUS * size as f32 / 2.0 - distance + 0.5;
+        let coverage = match shape {
+            Shape::Sphere => RADIUS * size as f32 / 2.0 - distance + 0.5,
+            Shape::Square => 1.0,
+        };
         let colour = colour.map(|channel| (channel.clamp(0.0, 1.0) * 255.0 + 0.5) as u8);
         raster.blend(left + x, top + y, colour, coverage);
     }
