@@ -3,13 +3,16 @@
 
 mod area_light;
 mod area_norm;
+mod blackbody;
 mod committed;
+mod conductor;
 mod dfg;
 mod dielectric_albedo;
 mod disney_zh;
 mod lobe_plane;
 mod recipes;
 mod sampling;
+mod tone_curve;
 
 use std::path::{Path, PathBuf};
 
