@@ -23,7 +23,7 @@ use crate::microfacet::fresnel;
 use crate::quadrature::TanhSinh;
 use std::f64::consts::PI;
 
-/// The largest estimated error that [`generate`](super::generate) accepts: below the rounding to f32.
+/// The largest estimated error that [`generate`](super::generate) accepts: below rounding to f32.
 pub const ALLOWED_ERROR: f64 = 1e-8;
 /// Of each part of an integral: there are up to fifteen.
 const TOLERANCE: f64 = 1e-10;
@@ -159,7 +159,7 @@ fn table(recipe: &Recipe) -> Table {
     })
 }
 
-/// The metals of the paper, with the figures of its Brendel–Bormann model; gold, the default, is the
+/// The metals of the paper, with the figures of its Brendel–Bormann model; gold, the default, is
 /// first.
 pub const METALS: [Metal; 11] = [
     Metal {

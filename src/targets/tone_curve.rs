@@ -8,10 +8,10 @@
 //! a dim surround. All else in them leaves greys alone. `signal` is that, encoded for sRGB
 //! (IEC 61966-2-1).
 //!
-//! Exposure is in stops over middle grey, .18. Within 6.5 stops the curve rises from 0 to 1; beyond,
+//! Exposure is in stops over middle grey, .18. Within 6.5 stops the curve rises from 0 to 1, beyond
 //! it is cut off. It is what shaders call "ACES", and its inverse has no short form, so that both
-//! are best found together: `--template 'display = f(stops); back = g(f(stops))' --derive 'back =
-//! stops'`.
+//! are best found together, by the template `display = f(stops); back = g(f(stops))` and
+//! `--derive 'back = stops'`.
 
 use super::sampling::{SAMPLING, SAMPLING_SEED};
 use super::table::{Sample, Table};
@@ -47,8 +47,8 @@ pub(super) const TARGET: Target = Target {
     make: Make::Table(table),
 };
 
-/// Computes the display's light, linear in [0, 1], for an exposure in stops over middle grey; beyond
-/// 6.5 it is black or white.
+/// Computes the display's light, linear in [0, 1], for an exposure in stops over middle grey. Beyond
+/// 6.5 stops it is black or white.
 pub fn display(stops: f64) -> f64 {
     let [darkest, grey, brightest] = [STOPS[0], 0.0, STOPS[1]].map(rendered);
     let rendered = rendered(stops).clamp(darkest, brightest);
