@@ -47,8 +47,8 @@ pub(super) const TARGET: Target = Target {
     make: Make::Table(table),
 };
 
-/// Computes the display's light, linear in [0, 1], for an exposure in stops over middle grey. Beyond
-/// 6.5 stops it is black or white.
+/// Computes the display's light, linear in [0, 1], for an exposure in stops over middle grey:
+/// beyond 6.5 stops black or white.
 pub fn display(stops: f64) -> f64 {
     let [darkest, grey, brightest] = [STOPS[0], 0.0, STOPS[1]].map(rendered);
     let rendered = rendered(stops).clamp(darkest, brightest);
