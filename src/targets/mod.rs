@@ -15,6 +15,8 @@
 pub mod area_light;
 pub mod area_norm;
 pub mod beckmann_g1;
+pub mod blackbody;
+pub mod conductor;
 pub mod dfg;
 pub mod dielectric_albedo;
 pub mod disney_zh;
@@ -32,6 +34,7 @@ pub mod smith_g1;
 pub mod smith_g2;
 pub mod sphere_light;
 mod table;
+pub mod tone_curve;
 
 pub use error::Error;
 pub use recipe::Recipe;
@@ -115,6 +118,9 @@ pub fn targets() -> &'static [Target] {
         disney_zh::TARGET,
         lobe_plane::TARGET,
         dielectric_albedo::TARGET,
+        conductor::TARGET,
+        blackbody::TARGET,
+        tone_curve::TARGET,
     ]
 }
 

@@ -3,7 +3,9 @@
 
 mod area_light;
 mod area_norm;
+mod blackbody;
 mod committed;
+mod conductor;
 mod dfg;
 mod dielectric_albedo;
 mod disney_zh;
@@ -11,6 +13,7 @@ mod lobe_plane;
 mod recipes;
 mod sampling;
 mod sphere_light;
+mod tone_curve;
 
 use std::path::{Path, PathBuf};
 
