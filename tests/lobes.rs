@@ -1,5 +1,5 @@
-//! Reflections as spherical Gaussians: lobes against their densities, the error integral and the fits
-//! against another program's (`tests/reference/README.md`).
+//! Reflections as spherical Gaussians: lobes against their densities, the error integral and the
+//! fits against another program's (`tests/reference/README.md`).
 
 use glam::DVec3;
 use lgp::lobes::fit::{self, Amplitude};
@@ -17,9 +17,9 @@ const SECTORS: usize = 12;
 /// A χ² as many standard deviations above its mean has a probability of about 1e-3.
 const LIMIT: f64 = 3.3;
 
-/// How many standard deviations Pearson's χ² of the samples against the density lies above its mean,
-/// over cells about `axis`: rings within the cap `1 - cosine < depth`, of equal solid angles, by
-/// sectors, and one cell for the rest of the sphere and the points that give no sample.
+/// How many standard deviations Pearson's χ² of the samples against the density lies above its
+/// mean, over cells about `axis`: rings within the cap `1 - cosine < depth`, of equal solid angles,
+/// by sectors, and one cell for the rest of the sphere and the points that give no sample.
 fn excess(
     axis: DVec3,
     depth: f64,
@@ -222,8 +222,8 @@ fn the_error_integral_is_that_of_a_product_rule() {
     assert!((fast.error() / found.error() - 1.0).abs() < 1e-10);
 }
 
-/// Noise would show in differences of second order, which steps a tenth as long make a hundred times
-/// as large.
+/// Noise would show in differences of second order, which steps a tenth as long make a hundred
+/// times as large.
 #[test]
 fn the_landscape_is_smooth() {
     let misfit = Misfit::new(Response::new(0.3, 0.1), 864);

@@ -100,8 +100,8 @@ fn fan_from(misfit: &Misfit, amplitude: Amplitude, start: &Fan) -> Fitted<Fan> {
     fitted(&descend(coordinates, |coordinates| fitted(coordinates).error))
 }
 
-/// Fans about the mirrored direction, as wide as the lobe is across the plane, and spread by what it
-/// is wider along it, or by less.
+/// Fans about the mirrored direction, as wide as the lobe is across the plane, and spread by what
+/// it is wider along it, or by less.
 fn usual_fans(response: &Response, count: usize) -> Vec<Fan> {
     let (cosine, alpha) = (response.n_dot_v(), response.alpha());
     let theta = cosine.acos();
@@ -116,8 +116,8 @@ fn usual_fans(response: &Response, count: usize) -> Vec<Fan> {
     [[1.0, 0.7, 0.3], [1.5, 1.5, 0.1], [0.3, 0.3, 0.6]].map(start).to_vec()
 }
 
-/// Fits spherical Gaussians in the plane of n and v, each with its own angle, bandwidth and amplitude
-/// (course notes, §7.2), from such lobes. All coordinates are free.
+/// Fits spherical Gaussians in the plane of n and v, each with its own angle, bandwidth and
+/// amplitude (course notes, §7.2), from such lobes. All coordinates are free.
 pub fn mixture(misfit: &Misfit, start: &[SphericalGaussian]) -> Fitted<Vec<SphericalGaussian>> {
     let at = |coordinates: &[f64]| -> Vec<SphericalGaussian> {
         let lobe = |(lobe, own): (&SphericalGaussian, &[f64])| {

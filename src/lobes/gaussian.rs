@@ -64,7 +64,8 @@ pub fn unit_integral(lambda: f64) -> f64 {
     if lambda == 0.0 { 4.0 * PI } else { -TAU * (-2.0 * lambda).exp_m1() / lambda }
 }
 
-/// Draws in proportion to the lobe (course notes, §7.6): `1 - cos θ = -ln(1 - ξ (1 - exp(-2λ))) / λ`.
+/// Draws in proportion to the lobe (course notes, §7.6): `1 - cos θ = -ln(1 - ξ (1 - exp(-2λ))) /
+/// λ`.
 impl Lobe for SphericalGaussian {
     fn value(&self, direction: DVec3) -> f64 {
         self.amplitude * self.shape(direction)
@@ -126,9 +127,8 @@ mod tests {
             }
         }
         // Uniform on the sphere, where λ vanishes.
-        let [even, nearly] = [0.0, 1e-12].map(|lambda| {
-            SphericalGaussian::new(DVec3::Z, lambda, 1.0).sample([0.2, 0.3])
-        });
+        let [even, nearly] = [0.0, 1e-12]
+            .map(|lambda| SphericalGaussian::new(DVec3::Z, lambda, 1.0).sample([0.2, 0.3]));
         assert!((even - nearly).length() < 1e-11);
     }
 }

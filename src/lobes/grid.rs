@@ -25,9 +25,9 @@ pub struct Grid<'a> {
 
 impl Grid<'_> {
     /// Fits a fan of `count` lobes at every place, on all of rayon's threads; their number changes
-    /// nothing. Each is fitted by itself, then from its neighbours' optima while that makes it better,
-    /// so that tables of the parameters are smooth. `after_place` is called when a place is done, from
-    /// any thread.
+    /// nothing. Each is fitted by itself, then from its neighbours' optima while that makes it
+    /// better, so that tables of the parameters are smooth. `after_place` is called when a place is
+    /// done, from any thread.
     pub fn fans(
         &self,
         count: usize,
@@ -85,8 +85,8 @@ impl Grid<'_> {
         found
     }
 
-    /// What a fan would be at another place, if it only turned with the view and had the same shape in
-    /// units of the response's width.
+    /// What a fan would be at another place, if it only turned with the view and had the same shape
+    /// in units of the response's width.
     fn moved(&self, fan: Fan, from: usize, to: usize) -> Fan {
         let [[v_from, r_from], [v_to, r_to]] = [self.at(from), self.at(to)];
         let wider = (r_to / r_from).powi(2);

@@ -66,8 +66,8 @@ impl Moments {
 }
 
 impl Misfit {
-    /// Prepares for models of a response, with `points` from each distribution: the notes take 30 000
-    /// to 50 000 in all. Products of powers of 2 and 3 are spread best.
+    /// Prepares for models of a response, with `points` from each distribution: the notes take 30
+    /// 000 to 50 000 in all. Products of powers of 2 and 3 are spread best.
     pub fn new(response: Response, points: usize) -> Misfit {
         let points = half_turn(points);
         let drawn = |&point: &[f64; 2]| {
@@ -148,7 +148,8 @@ impl Misfit {
             }
             for (index, lobe) in lobes.iter().enumerate() {
                 let seen = &shapes[count - 1 - index..][..count];
-                let model = seen.iter().zip(&amplitudes).map(|(shape, amplitude)| shape * amplitude);
+                let model =
+                    seen.iter().zip(&amplitudes).map(|(shape, amplitude)| shape * amplitude);
                 let direction = lobe.to_world(local);
                 let [value, density] = self.response.value_and_density(direction);
                 let drawn = Drawn { direction, value, density };

@@ -1,5 +1,5 @@
-//! Reflections as spherical Gaussians: lobes that stand in for a GGX surface's response to light, so
-//! that a prefiltered environment can be looked up in their place.
+//! Reflections as spherical Gaussians: lobes that stand in for a GGX surface's response to light,
+//! so that a prefiltered environment can be looked up in their place.
 //!
 //! Source: Pesce and Iwanicki, "Approximate Models for Physically Based Rendering" (SIGGRAPH 2015
 //! course notes, §7). In their frame the normal is z, v is in the plane of x and z, and the lobe is

@@ -21,6 +21,8 @@ pub mod disney_zh;
 mod error;
 pub mod fresnel;
 pub mod ggx_d;
+pub mod ggx_lobes;
+pub mod ggx_response;
 pub mod hammon;
 mod lobe;
 pub mod lobe_plane;
@@ -113,6 +115,8 @@ pub fn targets() -> &'static [Target] {
         disney_zh::TARGET,
         lobe_plane::TARGET,
         dielectric_albedo::TARGET,
+        ggx_lobes::TARGET,
+        ggx_response::TARGET,
     ]
 }
 

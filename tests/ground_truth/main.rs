@@ -7,6 +7,7 @@ mod committed;
 mod dfg;
 mod dielectric_albedo;
 mod disney_zh;
+mod ggx_lobes;
 mod lobe_plane;
 mod recipes;
 mod sampling;
