@@ -1,15 +1,15 @@
 //! What formulas of the multi-lobe model's parameters cost in error, beside the tables that they
 //! replace (`datasets/ggx_lobes.bin`).
 //!
-//! `cargo run --release --example lobes -- FORMULA…`, each a statement such as
-//! `spread = roughness^2*(1.4 - 0.7*n_dot_v)` of one parameter over `n_dot_v` and `roughness`;
-//! parameters without one are the tables'. Prints means over places of the error integral
+//! `cargo run --release --example lobes -- FORMULA…`, each of one parameter or several over
+//! `n_dot_v` and `roughness`, such as `spread = roughness^2*(1.4 - 0.7*n_dot_v)`; parameters without
+//! one are the tables'. Prints means over places of the error integral
 //! `∫ (R - M)²`, and of that as a share of `∫ R²`: at the tables' own places, and in the middle
 //! between four of them, where tables are interpolated bilinearly.
 
 use lgp::dataset::{Dataset, Split};
 use lgp::lobes::{Fan, Misfit, Moments, Response};
-use lgp::program::{Names, Program, parse};
+use lgp::program::{Names, Program, Template, parse};
 use rayon::prelude::*;
 use std::error::Error;
 use std::path::Path;
@@ -29,7 +29,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     let (table, fitted) = (&data.search, &data.validation);
     println!("places,parameters,mean error,mean share of the squares");
     let own: Vec<[f32; 6]> = (0..table.rows()).map(|row| row_of(table, row)).collect();
-    report("table", &own, &own, &formulas);
+    report("at the table's", &own, &formulas);
     let [rows, columns] = table.grid[..] else { return Err("no grid".into()) };
     let between = |row: usize| -> Option<[[f32; 6]; 2]> {
         let (i, j) = (row / (columns + 1), row % (columns + 1));
@@ -44,19 +44,26 @@ fn main() -> Result<(), Box<dyn Error>> {
     let pairs: Vec<_> = (0..fitted.rows()).filter_map(between).collect();
     let [optima, interpolated] =
         [0, 1].map(|k| pairs.iter().map(|pair| pair[k]).collect::<Vec<_>>());
-    report("between, optima", &optima, &optima, &[]);
-    report("between, table", &interpolated, &interpolated, &formulas);
+    report("between, fitted there", &optima, &[]);
+    report("between", &interpolated, &formulas);
     Ok(())
 }
 
-/// A formula, and the column that it replaces.
-fn read(text: &str, names: &Names) -> Result<(usize, Program), Box<dyn Error>> {
-    let name = text.split('=').next().unwrap_or_default().trim();
-    let Some(output) = names.outputs.iter().position(|known| known == name) else {
-        return Err(format!("{name}: none of {}", names.outputs.join(", ")).into());
-    };
-    let own = Names::new(names.inputs.clone(), [name.to_owned()]);
-    Ok((names.inputs.len() + output, parse(text, &own)?))
+/// A formula, and the columns that it replaces.
+struct Formula {
+    columns: Vec<usize>,
+    program: Program,
+}
+
+fn read(text: &str, names: &Names) -> Result<Formula, Box<dyn Error>> {
+    let outputs = Template::assigned(text, names)?;
+    if outputs.is_empty() {
+        return Err(format!("{text}: it assigns none of {}", names.outputs.join(", ")).into());
+    }
+    let place = |name: &String| names.outputs.iter().position(|known| known == name);
+    let columns = outputs.iter().filter_map(place).map(|at| names.inputs.len() + at).collect();
+    let program = parse(text, &Names::new(names.inputs.clone(), outputs))?;
+    Ok(Formula { columns, program })
 }
 
 fn row_of(split: &Split, row: usize) -> [f32; 6] {
@@ -64,15 +71,16 @@ fn row_of(split: &Split, row: usize) -> [f32; 6] {
 }
 
 /// Prints the errors of rows of parameters, and of the same with the formulas in their place.
-fn report(places: &str, rows: &[[f32; 6]], plain: &[[f32; 6]], formulas: &[(usize, Program)]) {
+fn report(places: &str, rows: &[[f32; 6]], formulas: &[Formula]) {
     let replaced = |row: &[f32; 6]| {
         let mut row = *row;
-        for (column, program) in formulas {
-            row[*column] = program.evaluate(&row[..2])[0];
+        for Formula { columns, program } in formulas {
+            let values = program.evaluate(&row[..2]);
+            columns.iter().zip(values).for_each(|(&column, value)| row[column] = value);
         }
         row
     };
-    let before = mean_errors(plain);
+    let before = mean_errors(rows);
     println!("{places},tables,{:.4e},{:.5}", before[0], before[1]);
     if !formulas.is_empty() {
         let after = mean_errors(&rows.iter().map(replaced).collect::<Vec<_>>());

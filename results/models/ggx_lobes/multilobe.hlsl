@@ -34,15 +34,19 @@ struct LobeParameters
 LobeParameters GetLobeParameters(float nDotV, float roughness)
 {
     float alpha = roughness * roughness;
-    float bent = (roughness - 1.1 * nDotV) * saturate(roughness + 0.2 * nDotV);
+    float middle = (alpha - 1.0) * (0.5 * nDotV + 1.304) + 1.303;
+    float width = 3.04 - 2.6 * max(max(roughness, 0.6), abs(0.82 - 1.95 * nDotV));
+    float bent = (roughness - 1.15 * nDotV) * saturate(roughness + 0.32 * nDotV);
     float nearness = nDotV + bent;
-    float middle = (alpha - 1.06) * (0.6 * nDotV + 1.41) + 1.5;
-    float bandwidth = nDotV + (16.0 * nearness - 14.4) * (nearness - 0.69 * saturate(bent + 0.76));
+    float bandwidth = nDotV + (16.3 * nearness - 14.2) * (nearness - 0.667 * saturate(bent + 0.79));
+    float bow = nDotV * (roughness + nDotV * (1.9 - 2.0 * nDotV)) - 0.54
+        + 0.71 * saturate(8.0 * roughness - 6.7);
+    float height = bow * (1.266 - 2.37 * saturate(3.6 * roughness - 1.97)) - 5.69;
     LobeParameters lobes;
     lobes.cosTheta = lerp(nDotV, 1.0, saturate(middle));
-    lobes.spread = alpha * (bent + 1.4);
+    lobes.spread = alpha * width;
     lobes.lambda = exp2(bandwidth) / (alpha * alpha);
-    lobes.height = exp2(0.8 * roughness - 5.94 - abs(0.74 - nDotV - 3.0 * saturate(alpha - 0.4)));
+    lobes.height = exp2(height);
     return lobes;
 }
 
