@@ -1,11 +1,12 @@
 //! Lobes of a GGX surface: parts of the committed tables against what is computed again. The error
 //! integral and the fits themselves are compared with another program's in `tests/lobes.rs`.
 
-use crate::{assert_near, committed};
+use crate::committed;
 use lgp::dataset::Dataset;
 use lgp::lobes::fit::{Amplitude, fan};
-use lgp::lobes::{Fan, Misfit, Response};
+use lgp::lobes::{Fan, Grid, Lobe, Misfit, Response};
 use lgp::targets::{Recipe, generate};
+use std::sync::atomic::{AtomicUsize, Ordering};
 
 fn committed_fan(row: &[f32]) -> Fan {
     let [cosine, spread, log_amplitude, log_lambda] = [2, 3, 4, 5].map(|i| f64::from(row[i]));
@@ -24,7 +25,7 @@ fn committed_fans_are_of_least_error() {
         for place in [0, 1, 3, 4].map(|quarter| quarter * (split.rows() - 1) / 4) {
             let row: Vec<f32> = split.columns.iter().map(|column| column[place]).collect();
             let [n_dot_v, roughness] = [row[0], row[1]].map(f64::from);
-            let misfit = Misfit::new(Response::new(n_dot_v, roughness * roughness), 864);
+            let misfit = Misfit::new(Response::new(n_dot_v, roughness * roughness), 432);
             let made = misfit.fan_moments(&committed_fan(&row));
             let again = fan(&misfit, 8, Amplitude::Free, &[]);
             let gained = 1.0 - again.error / made.error();
@@ -35,25 +36,40 @@ fn committed_fans_are_of_least_error() {
     }
 }
 
-/// A small grid is made by the same steps.
+/// A place by itself, which neighbours can but improve.
 #[test]
-fn a_small_table_is_near_the_committed_one() {
-    let recipe = Recipe::parse("(target: \"ggx_lobes\", points: 2)").unwrap();
-    let small = generate(&recipe, &|_, _| ()).unwrap();
+fn a_place_is_fitted_again() {
     let data = Dataset::load(&committed("ggx_lobes.bin")).unwrap();
-    // Its centres are nodes of the other's validation split.
-    for row in 0..small.search.rows() {
-        let of = |split: &lgp::dataset::Split, row: usize| -> Vec<f32> {
-            split.columns.iter().map(|column| column[row]).collect()
-        };
-        let found = of(&small.search, row);
-        let [i, j] = [found[0], found[1]].map(|at| (16.0 * at) as usize);
-        let made = of(&data.validation, i * 17 + j);
-        assert_near(found[0], made[0], "n_dot_v");
-        for output in 2..6 {
-            assert!((found[output] - made[output]).abs() < 2e-3, "{found:?} {made:?}");
-        }
+    let grid = Grid { n_dot_v: &[0.5], roughness: &[0.25] };
+    let fan = grid.fans(8, Amplitude::Free, &|| ())[0].model;
+    // Node 8 of 16 along one axis, 4 of 16 along the other.
+    let row: Vec<f32> = data.validation.columns.iter().map(|column| column[8 * 17 + 4]).collect();
+    let found = [fan.theta.cos(), fan.spread, fan.amplitude.ln(), fan.lambda.ln()];
+    assert_eq!(row[..2], [0.5, 0.25]);
+    for (found, &made) in found.into_iter().zip(&row[2..]) {
+        assert!((found - f64::from(made)).abs() < 2e-3, "{found} {row:?}");
     }
+}
+
+#[test]
+fn small_tables_have_their_rows() {
+    let recipe = "(target: \"ggx_lobes\", amplitude: \"normalised\", lobes: 1, points: 2)";
+    let done = AtomicUsize::new(0);
+    let small = generate(&Recipe::parse(recipe).unwrap(), &|_, total| {
+        assert_eq!(total, 4 + 9);
+        done.fetch_add(1, Ordering::Relaxed);
+    });
+    let small = small.unwrap();
+    assert_eq!(done.into_inner(), 13);
+    assert_eq!((&small.search.grid[..], &small.validation.grid[..]), (&[2, 2][..], &[3, 3][..]));
+    assert_eq!(small.search.columns[0], [0.25, 0.25, 0.75, 0.75]);
+    assert_eq!(small.validation.columns[1], [0.03, 0.5, 1.0].repeat(3));
+    assert_eq!(small.validation.weights[..4], [0.25, 0.5, 0.25, 0.5]);
+    assert_eq!(small.search.columns[3], [0.0; 4], "one lobe is not spread");
+    let misfit = Misfit::new(Response::new(0.25, 0.75 * 0.75), 864);
+    let row: Vec<f32> = small.search.columns.iter().map(|column| column[1]).collect();
+    let lobe = Fan { count: 1, ..committed_fan(&row) };
+    assert!((lobe.integral() / misfit.integral() - 1.0).abs() < 1e-5);
 }
 
 /// The weighted squares of a model are its error as a share of the response's own squares.
@@ -76,8 +92,7 @@ fn responses_are_weighted_as_an_integral() {
                 continue;
             }
             let direction = glam::DVec3::new(value(2), value(3), value(4)).normalize();
-            let model: f64 =
-                lobes.iter().map(|lobe| lgp::lobes::Lobe::value(lobe, direction)).sum();
+            let model: f64 = lobes.iter().map(|lobe| lobe.value(direction)).sum();
             sum += f64::from(rows.weights[row]) * (value(5) - model).powi(2);
         }
         assert!((sum / expected - 1.0).abs() < 0.03, "{place:?}: {sum} {expected}");
