@@ -34,7 +34,7 @@
 //! | [`wording`] | fronts, verdicts and examinations in words |
 //! | [`shader`] | functions of shaders as truths: read, interpreted, written down as formulas |
 //! | [`run`] | a search under way, from its budget to its fronts; its record and folder; unions, what recurs |
-//! | [`microfacet`], [`targets`] | BRDF models, ground truths |
+//! | [`microfacet`], [`lobes`], [`targets`] | BRDF models, reflections as spherical Gaussians, ground truths |
 //! | [`report`] | plots, maps, the page of a run, spheres |
 //! | [`cli`] | a file a subcommand |
 //!
@@ -123,6 +123,7 @@ pub mod shader;
 
 pub mod run;
 
+pub mod lobes;
 pub mod microfacet;
 pub mod quadrature;
 pub mod targets;

@@ -2,7 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
-const LAYERS: [&str; 31] = [
+const LAYERS: [&str; 32] = [
     "deadline",
     "file",
     "printable",
@@ -31,6 +31,7 @@ const LAYERS: [&str; 31] = [
     "shader",
     "run",
     "microfacet",
+    "lobes",
     "targets",
     "report",
     "cli",

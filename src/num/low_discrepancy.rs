@@ -1,7 +1,7 @@
 //! Spreads points over the unit cube more evenly than random ones do, or on grids.
 //!
 //! Sources: Hammersley, "Monte Carlo methods for solving multivariable
-//! problems", 1960; Sobol', "On the distribution of points in a cube", 1967,
+//! problems", 1960; Halton, 1960; Sobol', "On the distribution of points in a cube", 1967,
 //! with the direction numbers of Joe and Kuo, "Constructing Sobol sequences
 //! with better two-dimensional projections", 2008 (`new-joe-kuo-6`).
 //!
@@ -10,7 +10,7 @@
 
 use rand::{Rng, RngExt};
 
-/// The most dimensions of [`hammersley`] and [`Sobol`]; the direction numbers below go
+/// The most dimensions of [`hammersley`], [`halton`] and [`Sobol`]; the direction numbers below go
 /// no further.
 pub(crate) const MAX_DIMENSIONS: usize = 16;
 
@@ -37,6 +37,13 @@ pub fn hammersley<const D: usize>(index: u64, count: u64) -> [f64; D] {
         0 => index as f64 / count as f64,
         _ => radical_inverse(PRIMES[axis - 1], index),
     })
+}
+
+/// Returns point `index` of Halton's sequence: radical inverses in the first primes (Halton, "On the
+/// efficiency of certain quasi-random sequences of points", 1960). The first is the origin.
+pub fn halton<const D: usize>(index: u64) -> [f64; D] {
+    const { assert!(D <= MAX_DIMENSIONS) };
+    std::array::from_fn(|axis| radical_inverse(PRIMES[axis], index))
 }
 
 /// Bits of a coordinate and of an index: those of an `f64`'s significand.

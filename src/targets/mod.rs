@@ -23,6 +23,8 @@ pub mod disney_zh;
 mod error;
 pub mod fresnel;
 pub mod ggx_d;
+pub mod ggx_lobes;
+pub mod ggx_response;
 pub mod hammon;
 mod lobe;
 pub mod lobe_plane;
@@ -121,6 +123,8 @@ pub fn targets() -> &'static [Target] {
         conductor::TARGET,
         blackbody::TARGET,
         tone_curve::TARGET,
+        ggx_lobes::TARGET,
+        ggx_response::TARGET,
     ]
 }
 

@@ -9,6 +9,7 @@ mod conductor;
 mod dfg;
 mod dielectric_albedo;
 mod disney_zh;
+mod ggx_lobes;
 mod lobe_plane;
 mod recipes;
 mod sampling;
