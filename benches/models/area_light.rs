@@ -87,8 +87,8 @@ fn on_gpu(gpu: &Gpu, folder: &Path, columns: &[[f32; 5]]) -> Outcome<Vec<f64>> {
     let file = folder.join("area_light.hlsl");
     let call = Call {
         file: &file,
-        globals: "",
-        body: "result(0, sphere_light(row(0), row(1), row(2), row(3), row(4)));",
+        before: "",
+        body: "result(0, sphere_light_lobe(row(0), row(1), row(2), row(3), row(4)));",
         sizes: [5, 1],
     };
     let rows: Vec<f32> = columns.iter().flatten().copied().collect();

@@ -164,7 +164,7 @@ fn on_gpu(gpu: &Gpu, folder: &Path, normals: &[DVec3], roughness: f64) -> Outcom
     let file = folder.join("disney_diffuse.hlsl");
     let call = Call {
         file: &file,
-        globals: "",
+        before: "",
         body: "
     float3 sh[9];
     for (uint i = 0; i < 9; ++i) sh[i] = float3(setting(3*i), setting(3*i + 1), setting(3*i + 2));

@@ -12,9 +12,12 @@ mod vulkan;
 
 mod area_light;
 mod disney_diffuse;
+mod environment;
 mod formula;
+mod ggx_lobes;
 mod parallax;
 mod picture;
+mod polar;
 mod shader;
 
 use std::path::{Path, PathBuf};
@@ -25,9 +28,10 @@ pub type Outcome<T> = Result<T, Box<dyn std::error::Error>>;
 /// Draws a page's pictures into its folder.
 type Draw = fn(&Gpu, &Path) -> Outcome<()>;
 
-const MODELS: [(&str, Draw); 3] = [
+const MODELS: [(&str, Draw); 4] = [
     ("area_light", area_light::draw),
     ("disney_diffuse", disney_diffuse::draw),
+    ("ggx_lobes", ggx_lobes::draw),
     ("parallax", parallax::draw),
 ];
 

@@ -41,7 +41,7 @@ fn surfaces(gpu: &Gpu, folder: &Path, over: &str, formula: &str) -> Outcome<()> 
         plane.rows.iter().flat_map(|&row| [split.columns[0][row], split.columns[1][row]]).collect();
     let file = folder.join("parallax.hlsl");
     let body = format!("result(0, {formula});");
-    let call = Call { file: &file, globals: "", body: &body, sizes: [2, 1] };
+    let call = Call { file: &file, before: "", body: &body, sizes: [2, 1] };
     let made = call.run(gpu, &rows, &[])?;
     let truth = plane.column(&split.columns[2]);
     let squares: f64 = made.iter().zip(&truth).map(|(a, b)| f64::from(a - b).powi(2)).sum::<f64>();
@@ -128,7 +128,7 @@ fn corrected(gpu: &Gpu, folder: &Path, views: &[View], roughness: f64) -> Outcom
     let file = folder.join("parallax.hlsl");
     let call = Call {
         file: &file,
-        globals: "",
+        before: "",
         body: "result(0, ParallaxRoughness(row(0), row(1), row(2), 1.0, 1.0));",
         sizes: [3, 1],
     };

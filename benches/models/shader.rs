@@ -11,8 +11,8 @@ const GROUP: usize = 64;
 pub struct Call<'a> {
     /// The file that has them.
     pub file: &'a Path,
-    /// Declarations before the calls.
-    pub globals: &'a str,
+    /// What the file needs to be defined before it.
+    pub before: &'a str,
     /// Statements: the row is `row(0)` to `row(inputs - 1)`, settings of all rows follow as
     /// `setting(0)`, …; results go to `result(0, …)`, ….
     pub body: &'a str,
@@ -33,8 +33,8 @@ static uint index;
 float row(uint i) {{ return given[index*{inputs} + i]; }}
 float setting(uint i) {{ return given[{settings_at} + i]; }}
 void result(uint i, float value) {{ results[index*{outputs} + i] = value; }}
+{before}
 #include \"{file}\"
-{globals}
 [numthreads({GROUP}, 1, 1)]
 void main(uint3 id : SV_DispatchThreadID) {{
     index = id.x;
@@ -43,7 +43,7 @@ void main(uint3 id : SV_DispatchThreadID) {{
 }}
 ",
             settings_at = rows.len(),
-            globals = self.globals,
+            before = self.before,
             body = self.body,
         );
         let spirv = compile(&source)?;

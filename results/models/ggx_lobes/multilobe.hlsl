@@ -50,11 +50,10 @@ LobeParameters GetLobeParameters(float nDotV, float roughness)
     return lobes;
 }
 
-float3 SpecularBrdfApprox(float3 worldPosition, float3 worldNormal, float3 cameraPosition,
-                          float roughness)
+// The environment as the eight lobes weigh it; shares sum up their weights, and integral is that of all
+// lobes of unit environments, for one unit of shares.
+float3 GatherLobes(float3 n, float3 v, float roughness, out float shares, out float integral)
 {
-    float3 n = normalize(worldNormal);
-    float3 v = normalize(cameraPosition - worldPosition);
     float nDotV = saturate(dot(n, v));
     // Across the normal from the view. Where v is n, the lobes are about n: any tangent will do.
     float3 across = nDotV * n - v;
@@ -70,20 +69,42 @@ float3 SpecularBrdfApprox(float3 worldPosition, float3 worldNormal, float3 camer
     sincos(theta + spread, sine, cosine);
     sincos(2.0 * spread / (LOBES - 1), stepSine, stepCosine);
     // The integral of a Gaussian of amplitude height * lambda.
-    float integral = TAU * lobes.height * (1.0 - exp(-2.0 * lobes.lambda));
+    integral = TAU * lobes.height * (1.0 - exp(-2.0 * lobes.lambda));
 
     float3 sum = 0.0;
+    shares = 0.0;
     for (int lobe = 0; lobe < LOBES; ++lobe)
     {
         float place = 2.0 * lobe / (LOBES - 1) - 1.0;
         float offset = (lobe + 1 - 0.5 * (LOBES + 1)) * place;
         float share = exp(-spread / 3.0 * offset * offset);
         sum += share * SampleEnvironment(cosine * n + sine * across, lobes.lambda);
+        shares += share;
         float next = sine * stepCosine - cosine * stepSine;
         cosine = cosine * stepCosine + sine * stepSine;
         sine = next;
     }
+    return sum;
+}
+
+// What is reflected with F = 1, the amplitude of least error: Gaussians have no tails, so the light of
+// those is missing.
+float3 SpecularBrdfApprox(float3 worldPosition, float3 worldNormal, float3 cameraPosition,
+                          float roughness)
+{
+    float shares, integral;
+    float3 v = normalize(cameraPosition - worldPosition);
+    float3 sum = GatherLobes(normalize(worldNormal), v, roughness, shares, integral);
     return integral * sum;
+}
+
+// The mean of the environment, to be multiplied by the directional albedo, f0 * scale + bias: no light
+// is lost. In place of the one lookup of a prefiltered environment.
+float3 ReflectedEnvironment(float3 n, float3 v, float roughness)
+{
+    float shares, integral;
+    float3 sum = GatherLobes(n, v, roughness, shares, integral);
+    return sum / shares;
 }
 
 #ifdef COMPILED_ALONE
