@@ -49,7 +49,7 @@ impl SphericalGaussian {
     }
 
     /// Returns a direction of the lobe's own frame, its axis being z, in that of the surface.
-    pub(super) fn to_world(&self, local: DVec3) -> DVec3 {
+    pub(super) fn turned(&self, local: DVec3) -> DVec3 {
         self.frame * local
     }
 

@@ -150,7 +150,7 @@ impl Misfit {
                 let seen = &shapes[count - 1 - index..][..count];
                 let model =
                     seen.iter().zip(&amplitudes).map(|(shape, amplitude)| shape * amplitude);
-                let direction = lobe.to_world(local);
+                let direction = lobe.turned(local);
                 let [value, density] = self.response.value_and_density(direction);
                 let drawn = Drawn { direction, value, density };
                 sums.add(&drawn, model.sum(), peak * seen.iter().sum::<f64>());

@@ -96,7 +96,7 @@ fn rows(recipe: &Recipe, along: &[Vec<f32>; 2], after_place: &(dyn Fn() + Sync))
     let grid = Grid { n_dot_v: &n_dot_v, roughness: &roughness };
     let fans = grid.fans(recipe.count("lobes"), amplitude_of(recipe), after_place);
     let places = along[0].iter().flat_map(|&v| along[1].iter().map(move |&r| [v, r]));
-    let mut columns = vec![Vec::with_capacity(fans.len()); 6];
+    let mut columns = vec![Vec::new(); 6];
     for ([n_dot_v, roughness], fitted) in places.zip(&fans) {
         let Fan { theta, spread, lambda, amplitude, .. } = fitted.model;
         let outputs = [theta.cos(), spread, amplitude.ln(), lambda.ln()].map(|value| value as f32);
