@@ -151,6 +151,21 @@ fn errors_of_the_other_targets_are_those_of_the_reference_page() {
     }
 }
 
+/// "Max fit error: 0.0138", and what it is an error from.
+#[test]
+fn a_fit_of_the_tone_curve_errs_by_what_its_author_states() {
+    let file = committed("tone_curve.bin");
+    let dataset = Dataset::load(&file).unwrap();
+    let found = incumbents_for(&file, &dataset).unwrap();
+    let known = found.iter().find(|known| known.incumbent.name == "narkowicz_2016").unwrap();
+    let [stops, display] = [0, 1].map(|column| &dataset.validation.columns[column]);
+    let errors = stops
+        .iter()
+        .zip(display)
+        .map(|(&stops, &display)| f64::from((known.program.evaluate(&[stops])[0] - display).abs()));
+    assert_eq!(format!("{:.4}", errors.fold(0.0, f64::max)), "0.0138");
+}
+
 /// Every committed dataset has a published formula beside it that is finite on all of it.
 #[test]
 fn every_dataset_has_an_incumbent() {
