@@ -14,7 +14,10 @@
 
 pub mod area_light;
 pub mod area_norm;
+pub mod average_albedo;
+pub mod average_fresnel;
 pub mod beckmann_g1;
+pub mod coat_albedo;
 pub mod dfg;
 pub mod dielectric_albedo;
 pub mod disney_zh;
@@ -27,6 +30,8 @@ pub mod lobe_plane;
 mod normals;
 mod recipe;
 mod sampling;
+pub mod sheen_albedo;
+pub mod sheen_volume_albedo;
 mod simplex;
 pub mod smith_g1;
 pub mod smith_g2;
@@ -113,6 +118,11 @@ pub fn targets() -> &'static [Target] {
         disney_zh::TARGET,
         lobe_plane::TARGET,
         dielectric_albedo::TARGET,
+        coat_albedo::TARGET,
+        sheen_albedo::TARGET,
+        sheen_volume_albedo::TARGET,
+        average_albedo::TARGET,
+        average_fresnel::TARGET,
     ]
 }
 
