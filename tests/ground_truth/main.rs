@@ -3,6 +3,9 @@
 
 mod area_light;
 mod area_norm;
+mod average_albedo;
+mod average_fresnel;
+mod coat_albedo;
 mod committed;
 mod dfg;
 mod dielectric_albedo;
@@ -10,6 +13,8 @@ mod disney_zh;
 mod lobe_plane;
 mod recipes;
 mod sampling;
+mod sheen_albedo;
+mod sheen_volume_albedo;
 
 use std::path::{Path, PathBuf};
 
