@@ -12,6 +12,7 @@
 //! | module | holds |
 //! |---|---|
 //! | [`ggx`], [`beckmann`], [`blinn_phong`] | distributions of normals, and Smith's masking where it exists |
+//! | [`charlie`] | the distribution of cloth, its masking |
 //! | [`masking`] | cheaper masking and shadowing: Schlick, Hammon |
 //! | [`fresnel`] | reflectance of a smooth interface, exact and approximate |
 //! | [`half_vector`] | half-vectors of reflection and refraction, with their Jacobians |
@@ -20,6 +21,7 @@
 
 pub mod beckmann;
 pub mod blinn_phong;
+pub mod charlie;
 pub mod diffuse;
 pub mod fresnel;
 pub mod ggx;

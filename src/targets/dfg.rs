@@ -98,41 +98,57 @@ pub fn integrate_within(
         let bias = fresnel::schlick_weight(n_dot_v);
         return Dfg { scale: 1.0 - bias, bias, error: 0.0, evaluations: 0 };
     }
-    let view = View::new(n_dot_v, alpha, masking, tolerance);
+    let shares = |v_dot_h| {
+        let bias = fresnel::schlick_weight(v_dot_h);
+        [1.0 - bias, bias]
+    };
+    let ([scale, bias, error], evaluations) =
+        reflected(rule, tolerance, n_dot_v, alpha, masking, &shares);
+    Dfg { scale, bias, error, evaluations }
+}
+
+/// Integrates the light that facets reflect once, for two reflectances by v·h, `shares`: two albedos
+/// and the error of either, and the number of evaluations. `alpha` > 0.
+pub(super) fn reflected(
+    rule: &TanhSinh,
+    tolerance: f64,
+    n_dot_v: f64,
+    alpha: f64,
+    masking: Masking,
+    shares: &dyn Fn(f64) -> [f64; 2],
+) -> ([f64; 3], usize) {
+    let sine = ((1.0 - n_dot_v) * (1.0 + n_dot_v)).sqrt();
+    let evaluations = Cell::new(0);
+    let view = View { cosine: n_dot_v, sine, alpha, masking, tolerance, shares, evaluations };
     let theta_v = view.sine.atan2(view.cosine);
     let all_azimuths = Normal::at_angle(0.5 * (FRAC_PI_2 - theta_v), alpha);
     let no_azimuths = Normal::at_angle(0.5 * (FRAC_PI_2 + theta_v), alpha);
     let over = |from, to| mean(rule, tolerance, from, to, |normal| view.ring(rule, normal));
     let full = over(Normal::MACROSCOPIC, all_azimuths);
     let partial = over(all_azimuths, no_azimuths);
-    let [scale, bias, error] = std::array::from_fn(|term| full[term] + partial[term]);
-    Dfg { scale, bias, error, evaluations: view.evaluations.get() }
+    (std::array::from_fn(|term| full[term] + partial[term]), view.evaluations.get())
 }
 
-struct View {
+struct View<'a> {
     cosine: f64,
     sine: f64,
     alpha: f64,
     masking: Masking,
     tolerance: f64,
+    shares: &'a dyn Fn(f64) -> [f64; 2],
     evaluations: Cell<usize>,
 }
 
-impl View {
-    fn new(cosine: f64, alpha: f64, masking: Masking, tolerance: f64) -> View {
-        let sine = ((1.0 - cosine) * (1.0 + cosine)).sqrt();
-        View { cosine, sine, alpha, masking, tolerance, evaluations: Cell::new(0) }
-    }
-
-    /// Integrates over azimuth: the means of scale and bias, and the error of either.
+impl View<'_> {
+    /// Integrates over azimuth: the means of both albedos, and the error of either.
     fn ring(&self, rule: &TanhSinh, normal: Normal) -> [f64; 3] {
         let (n_dot_h, sin_h) = normal.direction(self.alpha);
         let phi_max = reflected_azimuths([self.cosine, self.sine], [n_dot_h, sin_h]);
-        let [scale, bias] = rule
+        let [first, second] = rule
             .integrate_all(0.0, phi_max, self.tolerance, |phi| self.terms(n_dot_h, sin_h, phi.x));
-        self.evaluations.set(self.evaluations.get() + scale.evaluations);
-        let error = scale.error.max(bias.error);
-        [scale.value / PI, bias.value / PI, error / PI]
+        self.evaluations.set(self.evaluations.get() + first.evaluations);
+        let error = first.error.max(second.error);
+        [first.value / PI, second.value / PI, error / PI]
     }
 
     fn terms(&self, n_dot_h: f64, sin_h: f64, phi: f64) -> [f64; 2] {
@@ -146,8 +162,7 @@ impl View {
             Masking::Separable => ggx::g2_separable(self.cosine, n_dot_l, self.alpha),
         };
         let weight = g2 * v_dot_h / (n_dot_h * self.cosine);
-        let fresnel = fresnel::schlick_weight(v_dot_h);
-        [(1.0 - fresnel) * weight, fresnel * weight]
+        (self.shares)(v_dot_h).map(|share| share * weight)
     }
 }
 

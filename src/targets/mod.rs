@@ -14,9 +14,12 @@
 
 pub mod area_light;
 pub mod area_norm;
+pub mod average_albedo;
+pub mod average_fresnel;
 pub mod beckmann_g1;
 pub mod blackbody;
 pub mod conductor;
+pub mod coat_albedo;
 pub mod dfg;
 pub mod dielectric_albedo;
 pub mod disney_zh;
@@ -31,6 +34,8 @@ pub mod lobe_plane;
 mod normals;
 mod recipe;
 mod sampling;
+pub mod sheen_albedo;
+pub mod sheen_volume_albedo;
 mod simplex;
 pub mod smith_g1;
 pub mod smith_g2;
@@ -125,6 +130,11 @@ pub fn targets() -> &'static [Target] {
         tone_curve::TARGET,
         ggx_lobes::TARGET,
         ggx_response::TARGET,
+        coat_albedo::TARGET,
+        sheen_albedo::TARGET,
+        sheen_volume_albedo::TARGET,
+        average_albedo::TARGET,
+        average_fresnel::TARGET,
     ]
 }
 

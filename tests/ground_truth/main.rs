@@ -4,6 +4,9 @@
 mod area_light;
 mod area_norm;
 mod blackbody;
+mod average_albedo;
+mod average_fresnel;
+mod coat_albedo;
 mod committed;
 mod conductor;
 mod dfg;
@@ -15,6 +18,8 @@ mod recipes;
 mod sampling;
 mod sphere_light;
 mod tone_curve;
+mod sheen_albedo;
+mod sheen_volume_albedo;
 
 use std::path::{Path, PathBuf};
 
