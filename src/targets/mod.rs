@@ -24,6 +24,7 @@ pub mod ggx_d;
 pub mod hammon;
 mod lobe;
 pub mod lobe_plane;
+pub mod ltc_ggx;
 mod normals;
 mod recipe;
 mod sampling;
@@ -113,6 +114,7 @@ pub fn targets() -> &'static [Target] {
         disney_zh::TARGET,
         lobe_plane::TARGET,
         dielectric_albedo::TARGET,
+        ltc_ggx::TARGET,
     ]
 }
 

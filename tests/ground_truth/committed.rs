@@ -8,6 +8,8 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 
 /// Made by simulation, minutes long: `tests/hammon.rs` looks at a part of it.
 const SIMULATED: &str = "hammon";
+/// Half a minute: `ltc_ggx.rs` looks at a part of it.
+const FITTED: &str = "ltc_ggx";
 
 /// Every recipe but that.
 fn names() -> Vec<String> {
@@ -32,7 +34,7 @@ fn every_target_has_a_recipe_and_data() {
 
 #[test]
 fn committed_datasets_are_generated_again() {
-    for name in &names() {
+    for name in names().iter().filter(|name| *name != FITTED) {
         let recipe = Recipe::load(&committed(&format!("{name}.ron"))).unwrap();
         let made = Dataset::load(&committed(&format!("{name}.bin"))).unwrap();
         assert_eq!(&made.name, name);

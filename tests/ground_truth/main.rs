@@ -8,6 +8,7 @@ mod dfg;
 mod dielectric_albedo;
 mod disney_zh;
 mod lobe_plane;
+mod ltc_ggx;
 mod recipes;
 mod sampling;
 
