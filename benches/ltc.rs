@@ -5,11 +5,11 @@
 //! cargo run --release --example ltc -- [--formula FILE]… [--published MATRIX.csv NORM.csv]
 //!     [--truth] [FOLDER]
 //! ```
-//! The reference is a table of 64×64 of the target `ltc_ggx`, bilinear over roughness and `sqrt(1 -
-//! n·v)` as published. `--formula` is the text of a formula of `n_dot_v` and `roughness` for `m11,
-//! m13, m31, m33, magnitude, fresnel`; `--published` another table, its rows (roughness, `sqrt(1 -
-//! n·v)`, m11, m31, m13, m33) and (roughness, `sqrt(1 - n·v)`, magnitude, fresnel, …); `--truth`
-//! samples the lights and GGX instead. Pictures go to FOLDER, if one is given.
+//! The reference is a table of 64×64 of the target `ltc_ggx`, bilinear over roughness and
+//! `sqrt(1 - n·v)` as published. `--formula` is the text of a formula of `n_dot_v` and `roughness`
+//! for m11, m13, m31, m33, magnitude and fresnel; `--published` another table, with the rows
+//! (roughness, root, m11, m31, m13, m33) and (roughness, root, magnitude, fresnel, …); `--truth`
+//! samples the lights and GGX. Pictures go to FOLDER, if one is given.
 //!
 //! The scene: a floor and two spheres of one roughness, f0 = .5, under a rectangle and a sphere of
 //! radiance 1, from three heights. A mirror shows them white, and nothing is brighter, so nothing
@@ -297,8 +297,8 @@ fn code(linear: f64) -> f64 {
 }
 
 /// Prints the largest and the root mean square difference of codes for every roughness and in all.
-fn compare(name: &str, pictures: &[Vec<f64>], reference: &[Vec<f64>]) {
-    println!("{name}, beside the fitted table, in codes of 8-bit sRGB:");
+fn compare(what: &str, pictures: &[Vec<f64>], reference: &[Vec<f64>]) {
+    println!("{what}, in codes of 8-bit sRGB:");
     println!("roughness      max      rms");
     let mut all = (0.0_f64, 0.0, 0.0);
     for (row, roughness) in ROUGHNESSES.iter().enumerate() {
@@ -377,14 +377,14 @@ fn main() -> Outcome<()> {
     let mut made = vec![("table".to_owned(), reference.clone())];
     for (name, source) in &sources {
         let found = shaded(&**source);
-        compare(name, &found, &reference);
+        compare(&format!("{name} against the table"), &found, &reference);
         made.push((format!("source_{}", made.len()), found));
     }
     if truth {
         let found = pictures(&|at, roughness| at.truth(roughness));
-        compare("GGX", &found, &reference);
+        compare("the table against GGX", &reference, &found);
         for ((name, _), (_, pictures)) in sources.iter().zip(&made[1..]) {
-            compare(&format!("GGX beside {name} instead of the table"), &found, pictures);
+            compare(&format!("{name} against GGX"), pictures, &found);
         }
         made.push(("truth".to_owned(), found));
     }

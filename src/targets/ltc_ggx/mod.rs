@@ -4,9 +4,9 @@
 //! Transformed Cosines", 2016): a cosine lobe about z whose directions a matrix M transforms is
 //! near GGX times the cosine of the light, times a magnitude. A shader multiplies the corners of a
 //! light by M⁻¹ and integrates the cosine. In a frame with the surface's normal as z and v in the
-//! plane of x and z, x > 0, M⁻¹ is `[m11 0 m13; 0 1 0; m31 0 m33]` (row, column; m22 is scaled to
-//! 1). The magnitude is the directional albedo without Fresnel, `fresnel` its part weighted by `(1
-//! - v·h)⁵`: the albedo is `f0 * (magnitude - fresnel) + fresnel`. `alpha = roughness²`,
+//! plane of x and z, x > 0, M⁻¹ is `[m11 0 m13; 0 1 0; m31 0 m33]` (row, column), scaled to m22 = 1.
+//! The magnitude is the directional albedo without Fresnel, `fresnel` its part that is weighted by
+//! `(1 - v·h)⁵`: the albedo is `f0 * (magnitude - fresnel) + fresnel`. `alpha = roughness²`,
 //! height-correlated masking. The published tables (github.com/selfshadow/ltc_code) have the same
 //! entries, over `sqrt(1 - n·v)`: m11, m31, m13, m33 are x, y, z, w of their first texture.
 //!
