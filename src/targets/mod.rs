@@ -31,6 +31,7 @@ pub mod ggx_response;
 pub mod hammon;
 mod lobe;
 pub mod lobe_plane;
+pub mod ltc_ggx;
 mod normals;
 mod recipe;
 mod sampling;
@@ -135,6 +136,7 @@ pub fn targets() -> &'static [Target] {
         sheen_volume_albedo::TARGET,
         average_albedo::TARGET,
         average_fresnel::TARGET,
+        ltc_ggx::TARGET,
     ]
 }
 

@@ -14,6 +14,7 @@ mod dielectric_albedo;
 mod disney_zh;
 mod ggx_lobes;
 mod lobe_plane;
+mod ltc_ggx;
 mod recipes;
 mod sampling;
 mod sphere_light;
