@@ -53,7 +53,7 @@ fn surfaces(gpu: &Gpu, folder: &Path, over: &str, formula: &str) -> Outcome<()> 
     });
     let picture = Maps {
         title: format!("A lobe on a plane, over {over}"),
-        subtitle: format!("{}", maps::axes(&data)),
+        subtitle: maps::axes(&data),
         columns: vec![["formula".into(), "on a GPU".into()], ["truth".into(), "fitted".into()]],
         outputs: outputs.collect(),
         plane,

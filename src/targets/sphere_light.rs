@@ -171,8 +171,7 @@ pub fn generate(recipe: &Recipe, progress: Progress) -> Result<Dataset, Error> {
         })
         .collect();
     for (place, lobe) in places.iter().zip(&lobes) {
-        // An error of NaN is refused, too.
-        if !(lobe.error <= ALLOWED_ERROR) {
+        if lobe.error.is_nan() || lobe.error > ALLOWED_ERROR {
             return Err(Error::Accuracy {
                 target: TARGET.name.into(),
                 point: format!("{:?}", Place::of(place)),

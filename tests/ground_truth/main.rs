@@ -3,9 +3,9 @@
 
 mod area_light;
 mod area_norm;
-mod blackbody;
 mod average_albedo;
 mod average_fresnel;
+mod blackbody;
 mod coat_albedo;
 mod committed;
 mod conductor;
@@ -17,10 +17,10 @@ mod lobe_plane;
 mod ltc_ggx;
 mod recipes;
 mod sampling;
-mod sphere_light;
-mod tone_curve;
 mod sheen_albedo;
 mod sheen_volume_albedo;
+mod sphere_light;
+mod tone_curve;
 
 use std::path::{Path, PathBuf};
 
