@@ -25,7 +25,7 @@
 //!
 //! Method: the directions of light are drawn from both lobes, by a rule instead of by chance
 //! (`lobe`); Newton's method on the four entries starts from that limit (`fit`). Magnitude and
-//! Fresnel are integrals of [`dfg`](super::dfg).
+//! Fresnel are integrals of [`dfg`].
 
 mod fit;
 mod lobe;
@@ -47,7 +47,7 @@ const POINTS: [usize; 3] = [16, 32, 64];
 /// Below, entries that are of the order of alpha are proportional to it, to 1e-5; and they come to
 /// rest on less and less of the error.
 const LEAST_ALPHA: f64 = 1e-4;
-/// Sampled instead of n·v = 0, as in [`dfg`](super::dfg).
+/// Sampled instead of n·v = 0, as in [`dfg`].
 const GRAZING: f64 = 0.001;
 
 pub(super) const TARGET: Target = Target {
