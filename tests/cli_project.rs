@@ -64,6 +64,16 @@ fn influence_is_looked_for_on_a_logarithmic_scale() {
     assert_eq!(code, Some(0), "{said}");
 }
 
+/// A parameter that matters in one column of a grid is no idle one.
+#[test]
+fn influence_is_looked_for_all_over_a_grid() {
+    let folder = lobe("16");
+    let model = "y = $p*x + $q*max(size - 0.6, 0)";
+    let words = [model, "lobe.bin", "--over", "alpha,size", "-o", "params.bin"];
+    let (code, _, said) = project(folder.path(), &words);
+    assert_eq!(code, Some(0), "{said}");
+}
+
 /// The least RMSE of a front's table.
 fn least_rmse(front: &str) -> f64 {
     let member = |line: &str| {

@@ -104,10 +104,12 @@ impl Projection {
         let problem = self.problem();
         let mut bench = Bench::new(&problem);
         let groups = &self.layout.groups[..self.layout.searched];
-        let every = groups.len().div_ceil(PROBED).max(1);
+        // Even steps would meet a grid in one of its lines.
+        let spread = |k: usize| (0.618_034 * k as f64).fract() * groups.len() as f64;
+        let probed_groups = (0..PROBED.min(groups.len())).map(|k| &groups[spread(k) as usize]);
         let mut idle: Vec<usize> = (0..self.model.labels().len()).collect();
         let mut has_values = false;
-        for group in groups.iter().step_by(every) {
+        for group in probed_groups {
             let task = problem.task(&self.dataset.search, &group.rows);
             for probe in 0..PROBES {
                 let usual = probed(self.model.parameters(), &self.model.starts(), probe, None);
