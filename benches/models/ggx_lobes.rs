@@ -87,7 +87,7 @@ fn landscape(folder: &Path) -> Outcome<()> {
         .collect();
     let picture = Maps {
         title: "Error".into(),
-        subtitle: "theta → ± .25, lambda ↑ × 4".into(),
+        subtitle: "theta → lambda ↑".into(),
         columns: vec![["log10 of the share".into(), "n·v .5, roughness .3".into()]],
         plane: Plane { points: [SIDE, SIDE], rows: (0..SIDE * SIDE).collect() },
         outputs: vec![OutputMaps { name: "error".into(), columns: vec![errors] }],
