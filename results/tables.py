@@ -1,5 +1,5 @@
-"""Writes the tables of results/README.md, results/scenes/README.md and results/functions/README.md, between their marks,
-by what `lgp` says of the committed runs."""
+"""Writes the tables of results/README.md, results/scenes/README.md, results/functions/README.md and
+results/models/materials/README.md, between their marks, by what `lgp` says of the runs."""
 
 import json
 import re
@@ -9,6 +9,10 @@ from pathlib import Path
 
 RESULTS = Path(__file__).parent
 RUNS = ["dfg", "dfg_paper", "fresnel", "beckmann_g1", "smith_g2", "area_norm", "disney_zh0", "hammon_single", "hammon_multi"]
+MATERIALS = [
+    "sheen_albedo", "sheen_albedo_materialx", "sheen_volume_albedo", "coat_albedo", "average_albedo", "average_fresnel", "conductor",
+    "blackbody", "blackbody_srgb", "tone_curve", "tone_curve_signal",
+]
 SCENES = [("materialx_rational", "materialx"), ("ue5_ggx_energy", "ue5")]
 
 
@@ -40,23 +44,31 @@ def matching(members, error):
     return next((m["cost"] for m in members if m["rmse"] <= error), None)
 
 
-def published(run):
+def published(folder):
     """Name, cycles and RMSE of each published formula that `lgp front` lists."""
-    lines = lgp("front", f"results/{run}").splitlines()
+    lines = lgp("front", folder).splitlines()
     for row, below in zip(lines, lines[1:]):
         if row.split()[:1] == ["*"]:
             yield below.split(":")[0].strip(), float(row.split()[1]), float(row.split()[2])
 
 
 def gallery():
+    beside_published("README.md", RUNS, "results/{0}", "[`{0}`]({0}/front.txt)")
+
+
+def materials():
+    beside_published("models/materials/README.md", MATERIALS, "runs/{0}", "[`{0}`]({0}.png)")
+
+
+def beside_published(page, runs, folder, cell):
     lines = ["| run | published | its cycles | its RMSE | the front's RMSE there | cycles that match it |", "|---|---|---|---|---|---|"]
-    for run in RUNS:
-        members = front(f"results/{run}")
-        for name, cost, error in sorted(published(run), key=lambda known: known[1:]):
+    for run in runs:
+        members = front(folder.format(run))
+        for name, cost, error in sorted(published(folder.format(run)), key=lambda known: known[1:]):
             matched = matching(members, error)
             matched = "none" if matched is None else f"{matched:g}"
-            lines.append(f"| [`{run}`]({run}/front.txt) | `{name}` | {cost:g} | {short(error)} | {short(at(members, cost))} | {matched} |")
-    replace("README.md", "published", lines)
+            lines.append(f"| {cell.format(run)} | `{name}` | {cost:g} | {short(error)} | {short(at(members, cost))} | {matched} |")
+    replace(page, "published", lines)
 
 
 def scenes():
@@ -127,4 +139,4 @@ def functions():
 
 
 if __name__ == "__main__":
-    {"gallery": gallery, "scenes": scenes, "functions": functions}[sys.argv[1]]()
+    {"gallery": gallery, "materials": materials, "scenes": scenes, "functions": functions}[sys.argv[1]]()

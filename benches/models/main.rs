@@ -15,6 +15,7 @@ mod disney_diffuse;
 mod environment;
 mod formula;
 mod ggx_lobes;
+mod materials;
 mod parallax;
 mod picture;
 mod polar;
@@ -28,10 +29,11 @@ pub type Outcome<T> = Result<T, Box<dyn std::error::Error>>;
 /// Draws a page's pictures into its folder.
 type Draw = fn(&Gpu, &Path) -> Outcome<()>;
 
-const MODELS: [(&str, Draw); 4] = [
+const MODELS: [(&str, Draw); 5] = [
     ("area_light", area_light::draw),
     ("disney_diffuse", disney_diffuse::draw),
     ("ggx_lobes", ggx_lobes::draw),
+    ("materials", materials::draw),
     ("parallax", parallax::draw),
 ];
 
