@@ -17,19 +17,27 @@ pub fn draw(gpu: &Gpu, folder: &Path) -> Outcome<()> {
     for file in files {
         let name = file.file_stem().and_then(|stem| stem.to_str()).unwrap_or_default();
         let data = Dataset::load(&datasets.join(name).with_extension("bin"))?;
-        println!("{name}: {:.5}", rmse(gpu, &file, name, &data)?);
+        let function = function(&std::fs::read_to_string(&file)?)?;
+        println!("{name}: {:.5}", rmse(gpu, &file, &function, &data)?);
     }
     Ok(())
 }
 
-fn rmse(gpu: &Gpu, file: &Path, name: &str, data: &Dataset) -> Outcome<f64> {
+/// The name of the function that a file defines.
+fn function(text: &str) -> Outcome<String> {
+    let heads = text.lines().filter(|line| line.starts_with("float"));
+    let name = heads.filter_map(|line| line.split(['(', ' ']).nth(1)).next();
+    Ok(name.ok_or("the file has no function")?.to_owned())
+}
+
+fn rmse(gpu: &Gpu, file: &Path, function: &str, data: &Dataset) -> Outcome<f64> {
     let (inputs, outputs) = (data.inputs.len(), data.outputs.len());
     let arguments: Vec<String> = (0..inputs).map(|index| format!("row({index})")).collect();
     let arguments = arguments.join(", ");
-    let body = match &data.outputs[..] {
-        [output] => format!("result(0, {name}_{}({arguments}));", output.name),
+    let body = match outputs {
+        1 => format!("result(0, {function}({arguments}));"),
         _ => format!(
-            "float{outputs} values = {name}({arguments});
+            "float{outputs} values = {function}({arguments});
     for (uint i = 0; i < {outputs}; ++i) result(i, values[i]);"
         ),
     };
