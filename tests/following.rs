@@ -13,6 +13,7 @@ use lgp::search::{FrontMember, Goal, Method, Problem, Search, integrate};
 use lgp::targets::{self, Recipe};
 use lgp::truth::{DomainError, Mesh, Norm, Truth, parse_domain};
 use serde_json::Value;
+use std::collections::BTreeSet;
 use std::path::Path;
 
 fn truth(formula: &str, domain: &str) -> Truth {
@@ -263,25 +264,33 @@ fn targets_are_functions_too() {
 
 #[test]
 fn every_value_of_a_targets_truth_is_that_of_its_data() {
-    for target in targets::targets() {
-        // Their rows are not spread evenly over the domain.
-        if ["ggx_d", "hammon"].contains(&target.name) {
-            let recipe = Recipe::parse(&format!("(target: \"{}\")", target.name)).unwrap();
-            assert!(targets::truth(&recipe).is_none(), "{}", target.name);
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("datasets");
+    let files = std::fs::read_dir(&folder).unwrap().map(|entry| entry.unwrap().path());
+    let recipes = files.filter(|file| file.extension().is_some_and(|end| end == "ron"));
+    let mut of_rows = BTreeSet::new();
+    for file in recipes {
+        let recipe = Recipe::load(&file).unwrap();
+        let name = recipe.target().name;
+        let Some(truth) = targets::truth(&recipe) else {
+            of_rows.insert(name);
             continue;
-        }
-        let recipe = Recipe::parse(&format!("(target: \"{}\", points: 4)", target.name)).unwrap();
-        let truth = targets::truth(&recipe).unwrap();
-        let data: Dataset = targets::generate(&recipe, &|_, _| ()).unwrap();
+        };
+        let data = Dataset::load(&file.with_extension("bin")).unwrap();
         let inputs = data.inputs.len();
         for row in [0, data.search.rows() / 2, data.search.rows() - 1] {
             let column = |index: usize| data.search.columns[index][row];
             let point: Vec<f64> = (0..inputs).map(|index| column(index).into()).collect();
-            let values: Vec<f32> = truth.at(&point).unwrap().iter().map(|v| *v as f32).collect();
-            let given: Vec<f32> = (inputs..inputs + values.len()).map(column).collect();
-            assert_eq!(values, given, "{}", target.name);
+            for (index, value) in (inputs..).zip(truth.at(&point).unwrap()) {
+                let (value, given) = (value as f32, column(index));
+                // The functions of other machines differ in their last bits.
+                let near = (value - given).abs() <= 2.0 * f32::EPSILON * given.abs();
+                assert!(near, "{name}, {point:?}: {value} {given}");
+            }
         }
     }
+    // Their rows are not spread evenly over the domain.
+    let expected = ["ggx_d", "ggx_lobes", "ggx_response", "hammon", "sphere_light"];
+    assert_eq!(of_rows, BTreeSet::from(expected));
 }
 
 #[test]

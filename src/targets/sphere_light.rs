@@ -12,7 +12,7 @@
 //! Distributions", 2017: it is a uniform sphere, stretched, and the light a cap of it).
 //!
 //! Rows: the reflected direction r and l are δ apart, at an azimuth from the plane of v and n. Sobol
-//! points choose ω, roughness, n·v, the azimuth and δ, evenly up to where the highlight has faded,
+//! points choose the size, roughness, n·v, the azimuth and δ, evenly up to where the highlight has faded,
 //! `ω/2 + 4 α`, so that rows lie where light is; l is above the horizon.
 //!
 //! Method: over the angle ψ from r and the azimuth φ around it. The light is an arc of azimuths as
@@ -34,8 +34,8 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 pub const ALLOWED_ERROR: f64 = 1e-5;
 /// For each of the nested integrals, whose errors add up.
 const TOLERANCE: f64 = 1e-7;
-/// Full angles of cones, in radians: from a lamp far away to one near by.
-const OMEGA: [f64; 2] = [0.02, 1.0];
+/// The light's radius over its distance, sin(ω/2): from a lamp far away to one near by.
+const SIZE: [f64; 2] = [0.01, 0.48];
 /// At .1, alpha is .01.
 const ROUGHNESS: [f64; 2] = [0.1, 1.0];
 /// Below, G2 of a rough surface leaves nothing to approximate.
@@ -191,7 +191,7 @@ pub fn generate(recipe: &Recipe, progress: Progress) -> Result<Dataset, Error> {
         TARGET.name,
         recipe.origin(format!("estimated error below {ALLOWED_ERROR:.0e} before rounding to f32")),
         vec![
-            axis("sin_half_omega", OMEGA.map(|omega| (0.5 * omega).sin())),
+            axis("sin_half_omega", SIZE),
             axis("roughness", ROUGHNESS),
             axis("n_dot_v", N_DOT_V),
             axis("n_dot_l", [ABOVE_HORIZON, 1.0]),
@@ -205,15 +205,15 @@ pub fn generate(recipe: &Recipe, progress: Progress) -> Result<Dataset, Error> {
 /// The dataset's inputs at a point of the unit cube; none where the light's centre is too low.
 fn columns_at(point: [f64; 5]) -> Option<[f32; 5]> {
     let between = |[least, most]: [f64; 2], at: f64| least + at * (most - least);
-    let omega = between(OMEGA, point[0]);
+    let size = between(SIZE, point[0]);
     let roughness = between(ROUGHNESS, point[1]);
     let n_dot_v = between(N_DOT_V, point[2]);
-    let faded = 0.5 * omega + FADED * roughness * roughness;
+    let faded = size.asin() + FADED * roughness * roughness;
     let offset = point[3] * faded.min(FRAC_PI_2);
     let azimuth = PI * point[4];
     let sine = (1.0 - n_dot_v * n_dot_v).sqrt();
     let n_dot_l = offset.cos() * n_dot_v + offset.sin() * azimuth.cos() * sine;
-    let columns = [(0.5 * omega).sin(), roughness, n_dot_v, n_dot_l, offset.cos()];
+    let columns = [size, roughness, n_dot_v, n_dot_l, offset.cos()];
     (n_dot_l > ABOVE_HORIZON && offset > 0.0).then_some(columns.map(|value| value as f32))
 }
 
