@@ -2,12 +2,12 @@
 
 use super::Outcome;
 use super::formula::Formula;
-use super::picture::{Pixel, apart, display, displayed, sphere_normals};
+use super::picture::{Panels, Pixel, apart, display, displayed, sphere_normals};
 use super::shader::Call;
 use super::vulkan::Gpu;
 use glam::DVec3;
 use lgp::quadrature::TanhSinh;
-use lgp::report::spheres::{Labels, Shape, picture};
+use lgp::report::spheres::Shape;
 use lgp::targets::sphere_light::Place;
 use rayon::prelude::*;
 use std::path::Path;
@@ -23,13 +23,13 @@ const EXPOSURE: f64 = 0.8;
 
 pub fn draw(gpu: &Gpu, folder: &Path) -> Outcome<()> {
     let normals = sphere_normals(SIZE);
-    let published = Formula::incumbents("sphere_light", &COLUMNS, "lobe")?;
+    let published = Formula::incumbents("sphere_light", &COLUMNS, &["lobe"])?;
     let titles = ["truth", "the model, on a GPU"].map(String::from).into_iter();
     let titles = titles.chain(published.iter().map(|formula| formula.name.clone()));
     let mut titles: Vec<String> = titles.collect();
     let differences = titles[1..].iter().map(|title| format!("|{title} - truth| × 3"));
     titles.extend(differences.collect::<Vec<_>>());
-    let mut rows: Vec<Vec<Vec<Pixel>>> = vec![Vec::new(); titles.len()];
+    let mut panels = Panels::new(titles.clone());
     println!(
         "RMSE of displayed colours, channels in [0, 1]: {}",
         titles[1..=published.len() + 1].join(", ")
@@ -41,28 +41,18 @@ pub fn draw(gpu: &Gpu, folder: &Path) -> Outcome<()> {
         let truth = shown(&columns, columns.par_iter().map(integral).collect());
         let mut made = vec![shown(&columns, on_gpu(gpu, folder, &columns)?)];
         made.extend(published.iter().map(|formula| {
-            let lobes = formula.values(&columns);
+            let lobes = formula.values(&columns).swap_remove(0);
             shown(&columns, lobes.into_iter().map(f64::from).collect())
         }));
         let rmse: Vec<String> =
             made.iter().map(|made| format!("{:.4}", displayed(&truth, made, SIZE).rmse)).collect();
         println!("{roughness}: {}", rmse.join(", "));
         let off: Vec<Vec<Pixel>> = made.iter().map(|made| apart(&truth, made, 3.0)).collect();
-        let all = [vec![truth], made, off].concat();
-        rows.iter_mut().zip(all).for_each(|(row, square)| row.push(square));
+        panels.push(roughness.to_string(), [vec![truth], made, off].concat());
     }
-    let labels = Labels {
-        title: "Spherical light on GGX".into(),
-        subtitle: format!("radius {RADIUS} of the distance; roughness from left to right"),
-        rows: titles,
-        columns: ROUGHNESSES.map(|r| r.to_string()).into(),
-        ..Labels::default()
-    };
-    std::fs::write(
-        folder.join("spheres.png"),
-        picture(&rows, SIZE, Shape::Sphere, Some(&labels))?,
-    )?;
-    Ok(())
+    let subtitle = format!("radius {RADIUS} of the distance; roughness from left to right");
+    let heading = ["Spherical light on GGX", &subtitle];
+    panels.write(&folder.join("spheres.png"), heading, Shape::Sphere, SIZE)
 }
 
 /// The dataset's inputs at a normal, within its domain.

@@ -2,13 +2,14 @@
 //! "Approximate Models for Physically Based Rendering", 2015.
 
 use super::Outcome;
-use super::picture::{Pixel, apart, display, displayed, sphere_normals};
+use super::formula::Formula;
+use super::picture::{Panels, Pixel, apart, display, displayed, sphere_normals};
 use super::shader::Call;
 use super::vulkan::Gpu;
 use glam::DVec3;
 use lgp::microfacet::diffuse;
 use lgp::quadrature::Rule;
-use lgp::report::spheres::{Labels, Shape, picture};
+use lgp::report::spheres::Shape;
 use lgp::targets::disney_zh::project;
 use std::f64::consts::{PI, TAU};
 use std::path::Path;
@@ -33,7 +34,16 @@ const ENVIRONMENT: [[f64; 3]; 9] = [
 
 pub fn draw(gpu: &Gpu, folder: &Path) -> Outcome<()> {
     let normals = sphere_normals(SIZE);
-    let mut rows: [Vec<Vec<Pixel>>; 6] = Default::default();
+    let outputs = ["zh0", "zh1", "zh2", "beta"];
+    let published = Formula::incumbents("disney_zh", &["n_dot_v", "roughness"], &outputs)?;
+    let mut panels = Panels::new([
+        "truth",
+        "the model, on a GPU",
+        "the notes' formulas",
+        "Lambert",
+        "|model - truth| × 10",
+        "|notes - truth| × 10",
+    ]);
     println!("RMSE of displayed colours, channels in [0, 1]");
     println!(
         "roughness    model    notes  lambert  exact parameters    largest of the model, in 255ths"
@@ -41,10 +51,14 @@ pub fn draw(gpu: &Gpu, folder: &Path) -> Outcome<()> {
     for roughness in ROUGHNESSES {
         let truth = shade(&normals, |n| exactly(n, roughness));
         let lambert = shade(&normals, |n| through(n, [0.282_094_8, 0.325_735, 0.157_695_8], 0.0));
-        let notes = shade(&normals, |n| {
-            let (zh, beta) = notes(n.z, roughness);
-            through(n, zh, beta)
+        let places: Vec<[f32; 2]> =
+            normals.iter().map(|n| [n.z as f32, roughness as f32]).collect();
+        let lobes = published[0].values(&places);
+        let notes = normals.iter().enumerate().map(|(pixel, &n)| {
+            let [zh0, zh1, zh2, beta] = [0, 1, 2, 3].map(|output| f64::from(lobes[output][pixel]));
+            display(through(n, [zh0, zh1, zh2], beta))
         });
+        let notes: Vec<Pixel> = notes.collect();
         let rotated = shade(&normals, |n| {
             let lobe = project(n.z, roughness);
             through(n, lobe.zh, lobe.beta)
@@ -61,29 +75,13 @@ pub fn draw(gpu: &Gpu, folder: &Path) -> Outcome<()> {
             255.0 * ours.largest
         );
         let [off, off_notes] = [&model, &notes].map(|made| apart(&truth, made, DIFFERENCE_TIMES));
-        let all = [truth, model, notes, lambert, off, off_notes];
-        rows.iter_mut().zip(all).for_each(|(row, square)| row.push(square));
+        panels.push(roughness.to_string(), [truth, model, notes, lambert, off, off_notes]);
     }
-    let titles = [
-        "truth",
-        "the model, on a GPU",
-        "the notes' formulas",
-        "Lambert",
-        "|model - truth| × 10",
-        "|notes - truth| × 10",
+    let heading = [
+        "Disney diffuse under an SH environment",
+        "Grace Cathedral, nine coefficients; roughness from left to right",
     ];
-    let labels = Labels {
-        title: "Disney diffuse under an SH environment".into(),
-        subtitle: "Grace Cathedral, nine coefficients; roughness from left to right".into(),
-        rows: titles.map(String::from).into(),
-        columns: ROUGHNESSES.map(|r| r.to_string()).into(),
-        ..Labels::default()
-    };
-    std::fs::write(
-        folder.join("spheres.png"),
-        picture(&rows, SIZE, Shape::Sphere, Some(&labels))?,
-    )?;
-    Ok(())
+    panels.write(&folder.join("spheres.png"), heading, Shape::Sphere, SIZE)
 }
 
 fn shade(normals: &[DVec3], light: impl Fn(DVec3) -> DVec3) -> Vec<Pixel> {
@@ -124,17 +122,6 @@ fn through(n: DVec3, zh: [f64; 3], beta: f64) -> DVec3 {
         let rotated = zh[l] * (4.0 * PI / (2 * l + 1) as f64).sqrt() * basis[i];
         sum + rotated * DVec3::from(ENVIRONMENT[i])
     })
-}
-
-/// The formulas of §6.4.
-fn notes(n_dot_v: f64, roughness: f64) -> ([f64; 3], f64) {
-    let g = 1.0 - n_dot_v;
-    let x = g.max(0.5637);
-    let zh0 = (0.0913 + 0.3067 * roughness)
-        + ((0.6502 - 1.0803 * roughness) + (-0.5993 + 1.0632 * roughness) * x) * x;
-    let zh1 = (1.1635 - 0.0304 * roughness + 0.0162 * g) * zh0;
-    let zh2 = (0.5725 - 0.0569 * roughness + 0.0386 * g) * zh0;
-    ([zh0, zh1, zh2], (-0.2988 + 0.1372 * roughness + 0.3775 * g).max(0.0))
 }
 
 fn radiance(l: DVec3) -> DVec3 {

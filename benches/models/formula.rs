@@ -12,10 +12,10 @@ pub struct Formula {
 }
 
 impl Formula {
-    /// The published formulas of a dataset of one output.
-    pub fn incumbents(dataset: &str, inputs: &[&str], output: &str) -> Outcome<Vec<Formula>> {
+    /// The published formulas of a dataset.
+    pub fn incumbents(dataset: &str, inputs: &[&str], outputs: &[&str]) -> Outcome<Vec<Formula>> {
         let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("datasets/incumbents");
-        let names = Names::new(inputs.iter().copied(), [output]);
+        let names = Names::new(inputs.iter().copied(), outputs.iter().copied());
         let all = load_incumbents(&folder.join(dataset).with_extension("ron"))?;
         let formula = |one: lgp::dataset::Incumbent| -> Outcome<Formula> {
             Ok(Formula { program: parse(&one.formula, &names)?, name: one.name })
@@ -23,10 +23,11 @@ impl Formula {
         all.into_iter().map(formula).collect()
     }
 
-    pub fn values<const N: usize>(&self, rows: &[[f32; N]]) -> Vec<f32> {
+    /// The values of each output on all rows.
+    pub fn values<const N: usize>(&self, rows: &[[f32; N]]) -> Vec<Vec<f32>> {
         let column = |index: usize| rows.iter().map(|row| row[index]).collect();
         let split = Split { columns: (0..N).map(column).collect(), ..Split::default() };
         let mut evaluator = Evaluator::default();
-        evaluator.outputs(&Tape::new(&self.program), &Samples::new(&split, N)).swap_remove(0)
+        evaluator.outputs(&Tape::new(&self.program), &Samples::new(&split, N))
     }
 }

@@ -3,7 +3,7 @@
 
 use super::Outcome;
 use super::environment::{LEVELS, SIDES, levels, radiance};
-use super::picture::{Pixel, apart, display, displayed, sphere_normals};
+use super::picture::{Panels, Pixel, apart, display, displayed, sphere_normals};
 use super::polar::{Curve, polar};
 use super::shader::Call;
 use super::vulkan::Gpu;
@@ -14,7 +14,7 @@ use lgp::microfacet::{ggx, half_vector, sampling};
 use lgp::num::low_discrepancy::hammersley;
 use lgp::report::maps::{self, Maps, OutputMaps, Plane};
 use lgp::report::plot::Theme;
-use lgp::report::spheres::{Labels, Shape, picture};
+use lgp::report::spheres::Shape;
 use rayon::prelude::*;
 use std::path::Path;
 
@@ -100,7 +100,14 @@ fn landscape(folder: &Path) -> Outcome<()> {
 fn spheres(gpu: &Gpu, folder: &Path) -> Outcome<()> {
     let normals = sphere_normals(SIZE);
     let environment = levels();
-    let mut rows: [Vec<Vec<Pixel>>; 6] = Default::default();
+    let mut panels = Panels::new([
+        "common approximation: lobe of v = n, times the albedo",
+        "eight lobes by formulas, on a GPU, times the albedo",
+        "the same, of free amplitude",
+        "truth",
+        "|common - truth| × 3",
+        "|eight lobes - truth| × 3",
+    ]);
     println!(
         "RMSE of displayed colours, channels in [0, 1]: common approximation, eight lobes times the albedo, of free amplitude"
     );
@@ -120,29 +127,10 @@ fn spheres(gpu: &Gpu, folder: &Path) -> Outcome<()> {
         let rmse = [&common, &mean, &free].map(|image| displayed(&truth, image, SIZE).rmse);
         println!("roughness {roughness}: {}", rmse.map(|rmse| format!("{rmse:.4}")).join(", "));
         let off = [&common, &mean].map(|image| apart(&truth, image, 3.0));
-        let all = [vec![common, mean, free, truth], off.into()].concat();
-        rows.iter_mut().zip(all).for_each(|(row, square)| row.push(square));
+        panels.push(roughness.to_string(), [vec![common, mean, free, truth], off.into()].concat());
     }
-    let titles = [
-        "common approximation: lobe of v = n, times the albedo",
-        "eight lobes by formulas, on a GPU, times the albedo",
-        "the same, of free amplitude",
-        "truth",
-        "|common - truth| × 3",
-        "|eight lobes - truth| × 3",
-    ];
-    let labels = Labels {
-        title: "A room reflected in GGX".into(),
-        subtitle: "F = 1; roughness from left to right".into(),
-        rows: titles.map(String::from).into(),
-        columns: ROUGHNESSES.map(|r| r.to_string()).into(),
-        ..Labels::default()
-    };
-    std::fs::write(
-        folder.join("spheres.png"),
-        picture(&rows, SIZE, Shape::Sphere, Some(&labels))?,
-    )?;
-    Ok(())
+    let heading = ["A room reflected in GGX", "F = 1; roughness from left to right"];
+    panels.write(&folder.join("spheres.png"), heading, Shape::Sphere, SIZE)
 }
 
 /// Normals that v sees, what they reflect, and the light's weight of each in the integral.

@@ -2,16 +2,15 @@
 //! 42 and 44 of Pesce and Iwanicki, "Approximate Models for Physically Based Rendering", 2015.
 
 use super::Outcome;
-use super::picture::{Pixel, apart, display, rmse};
+use super::picture::{Panels, Pixel, apart, display, rmse};
 use super::shader::Call;
 use super::vulkan::Gpu;
 use glam::DVec3;
 use lgp::microfacet::sampling;
 use lgp::num::low_discrepancy::hammersley;
-use lgp::report::maps::{Maps, OutputMaps, Plane};
+use lgp::report::maps::{self, Maps, OutputMaps, Plane};
 use lgp::report::plot::Theme;
-use lgp::report::spheres::{Labels, Shape};
-use lgp::report::{maps, spheres};
+use lgp::report::spheres::Shape;
 use lgp::targets::{Recipe, generate};
 use rayon::prelude::*;
 use std::f64::consts::{FRAC_PI_3, PI};
@@ -74,8 +73,13 @@ struct View {
 
 /// Stripes on a wall, reflected: further from the wall than the probe towards the top, or tilted more.
 fn walls(gpu: &Gpu, folder: &Path) -> Outcome<()> {
-    let mut rows: [Vec<Vec<Pixel>>; 5] = Default::default();
-    let mut titles = Vec::new();
+    let mut panels = Panels::new([
+        "truth",
+        "corrected, on a GPU",
+        "not corrected",
+        "|corrected - truth| × 3",
+        "|not corrected - truth| × 3",
+    ]);
     println!("RMSE of displayed values, channels in [0, 1]: corrected, not corrected");
     for over in ["distance", "angle"] {
         for roughness in ROUGHNESSES {
@@ -96,31 +100,14 @@ fn walls(gpu: &Gpu, folder: &Path) -> Outcome<()> {
             println!("{over}, roughness {roughness}: {ours:.4}, {none:.4}");
             let off = [&made, &plain].map(|image| apart(&truth, image, 3.0));
             let all = [vec![truth, made, plain], off.into()].concat();
-            rows.iter_mut().zip(all).for_each(|(row, square)| row.push(square));
-            titles.push(format!("{over}, {roughness}"));
+            panels.push(format!("{over}, {roughness}"), all);
         }
     }
-    let labels = Labels {
-        title: "A striped wall reflected through a probe".into(),
-        subtitle: "distance .25 to 4 of the probe's, angle 0 to 60°, both upwards; roughness"
-            .into(),
-        rows: [
-            "truth",
-            "corrected, on a GPU",
-            "not corrected",
-            "|corrected - truth| × 3",
-            "|not corrected - truth| × 3",
-        ]
-        .map(String::from)
-        .into(),
-        columns: titles,
-        ..Labels::default()
-    };
-    std::fs::write(
-        folder.join("walls.png"),
-        spheres::picture(&rows, SIZE, Shape::Square, Some(&labels))?,
-    )?;
-    Ok(())
+    let heading = [
+        "A striped wall reflected through a probe",
+        "distance .25 to 4 of the probe's, angle 0 to 60°, both upwards; roughness",
+    ];
+    panels.write(&folder.join("walls.png"), heading, Shape::Square, SIZE)
 }
 
 /// The page's roughness for each view.

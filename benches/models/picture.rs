@@ -1,6 +1,9 @@
 //! Pixels of pictures.
 
+use super::Outcome;
 use glam::DVec3;
+use lgp::report::spheres::{self, Labels, Shape};
+use std::path::Path;
 
 /// A displayed colour, channels in [0, 1].
 pub type Pixel = [f32; 3];
@@ -67,4 +70,33 @@ pub fn rmse(truth: &[Pixel], made: &[Pixel]) -> f64 {
     let squares =
         truth.iter().zip(made).flat_map(|(a, b)| [0, 1, 2].map(|c| (a[c] - b[c]).powi(2)));
     (squares.map(f64::from).sum::<f64>() / (3 * truth.len()) as f64).sqrt()
+}
+
+/// Pictures in rows and columns, each with a title.
+pub struct Panels {
+    titles: Vec<String>,
+    rows: Vec<Vec<Vec<Pixel>>>,
+    columns: Vec<String>,
+}
+
+impl Panels {
+    pub fn new<T: Into<String>>(titles: impl IntoIterator<Item = T>) -> Panels {
+        let titles: Vec<String> = titles.into_iter().map(Into::into).collect();
+        Panels { rows: vec![Vec::new(); titles.len()], titles, columns: Vec::new() }
+    }
+
+    /// Adds a column, a picture for each row.
+    pub fn push(&mut self, title: String, pictures: impl IntoIterator<Item = Vec<Pixel>>) {
+        self.columns.push(title);
+        self.rows.iter_mut().zip(pictures).for_each(|(row, picture)| row.push(picture));
+    }
+
+    /// Writes a PNG, each picture of `size` pixels each way; `heading` is its two lines.
+    pub fn write(self, file: &Path, heading: [&str; 2], shape: Shape, size: usize) -> Outcome<()> {
+        let [title, subtitle] = heading.map(String::from);
+        let (rows, columns) = (self.titles, self.columns);
+        let labels = Labels { title, subtitle, rows, columns, ..Labels::default() };
+        std::fs::write(file, spheres::picture(&self.rows, size, shape, Some(&labels))?)?;
+        Ok(())
+    }
 }
