@@ -23,6 +23,13 @@ impl Formula {
         all.into_iter().map(formula).collect()
     }
 
+    /// The formula that a file has.
+    pub fn read(file: &Path, inputs: &[&str], outputs: &[&str]) -> Outcome<Formula> {
+        let names = Names::new(inputs.iter().copied(), outputs.iter().copied());
+        let program = parse(&std::fs::read_to_string(file)?, &names)?;
+        Ok(Formula { name: file.display().to_string(), program })
+    }
+
     /// The values of each output on all rows.
     pub fn values<const N: usize>(&self, rows: &[[f32; N]]) -> Vec<Vec<f32>> {
         let column = |index: usize| rows.iter().map(|row| row[index]).collect();

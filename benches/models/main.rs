@@ -2,10 +2,10 @@
 //! glslang and run on a Vulkan device, beside the ground truth.
 //!
 //! ```text
-//! cargo run --release --example models -- NAME [DEVICE]
+//! cargo run --release --example models -- NAME [DEVICE [FILE…]]
 //! ```
 //! NAME is a folder of `results/models`. DEVICE is a part of the device's name; `llvmpipe`, Mesa's
-//! software Vulkan, unless given.
+//! software Vulkan, unless given. `ltc` takes two files, too: the published matrices and magnitudes.
 
 #[path = "../../tests/vulkan/mod.rs"]
 mod vulkan;
@@ -15,6 +15,7 @@ mod disney_diffuse;
 mod environment;
 mod formula;
 mod ggx_lobes;
+mod ltc;
 mod materials;
 mod parallax;
 mod picture;
@@ -26,15 +27,16 @@ use vulkan::Gpu;
 
 pub type Outcome<T> = Result<T, Box<dyn std::error::Error>>;
 
-/// Draws a page's pictures into its folder.
-type Draw = fn(&Gpu, &Path) -> Outcome<()>;
+/// Draws a page's pictures into its folder; some read files.
+type Draw = fn(&Gpu, &Path, &[String]) -> Outcome<()>;
 
-const MODELS: [(&str, Draw); 5] = [
-    ("area_light", area_light::draw),
-    ("disney_diffuse", disney_diffuse::draw),
-    ("ggx_lobes", ggx_lobes::draw),
-    ("materials", materials::draw),
-    ("parallax", parallax::draw),
+const MODELS: [(&str, Draw); 6] = [
+    ("area_light", |gpu, folder, _| area_light::draw(gpu, folder)),
+    ("disney_diffuse", |gpu, folder, _| disney_diffuse::draw(gpu, folder)),
+    ("ggx_lobes", |gpu, folder, _| ggx_lobes::draw(gpu, folder)),
+    ("ltc", ltc::draw),
+    ("materials", |gpu, folder, _| materials::draw(gpu, folder)),
+    ("parallax", |gpu, folder, _| parallax::draw(gpu, folder)),
 ];
 
 fn main() -> Outcome<()> {
@@ -46,7 +48,7 @@ fn main() -> Outcome<()> {
     };
     let gpu = Gpu::open(arguments.get(1).map_or("llvmpipe", String::as_str))?;
     println!("shaders run on {}", gpu.name);
-    draw(&gpu, &folder(name))
+    draw(&gpu, &folder(name), arguments.get(2..).unwrap_or_default())
 }
 
 fn folder(name: &str) -> PathBuf {

@@ -6,7 +6,7 @@ use lgp::targets::{Recipe, generate, targets};
 use std::collections::HashSet;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
-/// Half a minute and more to make: `tests/hammon.rs`, `ggx_lobes.rs`, `ltc_ggx.rs` look at a part of each.
+/// A quarter of a minute and more to make: `tests/hammon.rs`, `ggx_lobes.rs`, `ltc_ggx.rs` look at a part of each.
 const SLOW: [&str; 3] = ["hammon", "ggx_lobes", "ltc_ggx"];
 
 /// Every recipe but those.

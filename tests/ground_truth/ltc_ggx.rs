@@ -63,7 +63,7 @@ fn it_is_nearer_to_ggx_than_the_published_tables() {
     }
 }
 
-/// A part of the committed dataset, which takes half a minute to generate.
+/// A part of the committed dataset, which takes a quarter of a minute to generate.
 #[test]
 fn the_committed_dataset_has_its_values() {
     let recipe = Recipe::load(&committed("ltc_ggx.ron")).unwrap();
