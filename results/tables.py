@@ -10,7 +10,7 @@ from pathlib import Path
 RESULTS = Path(__file__).parent
 RUNS = ["dfg", "dfg_paper", "fresnel", "beckmann_g1", "smith_g2", "area_norm", "disney_zh0", "hammon_single", "hammon_multi"]
 MATERIALS = [
-    "sheen_albedo", "sheen_albedo_materialx", "sheen_volume_albedo", "coat_albedo", "dielectric_albedo", "average_albedo", "average_fresnel",
+    "sheen_albedo", "sheen_albedo_materialx", "sheen_volume_albedo", "ltc_sheen", "coat_albedo", "dielectric_albedo", "average_albedo", "average_fresnel",
     "conductor", "blackbody", "blackbody_srgb", "tone_curve", "tone_curve_signal",
 ]
 SCENES = [("materialx_rational", "materialx"), ("ue5_ggx_energy", "ue5")]

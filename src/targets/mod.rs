@@ -24,6 +24,7 @@ pub mod dfg;
 pub mod dielectric_albedo;
 pub mod disney_zh;
 mod error;
+mod fibres;
 pub mod fresnel;
 pub mod ggx_d;
 pub mod ggx_lobes;
@@ -32,6 +33,7 @@ pub mod hammon;
 mod lobe;
 pub mod lobe_plane;
 pub mod ltc_ggx;
+pub mod ltc_sheen;
 mod normals;
 mod recipe;
 mod sampling;
@@ -137,6 +139,7 @@ pub fn targets() -> &'static [Target] {
         average_albedo::TARGET,
         average_fresnel::TARGET,
         ltc_ggx::TARGET,
+        ltc_sheen::TARGET,
     ]
 }
 

@@ -6,8 +6,8 @@ use lgp::targets::{Recipe, generate, targets};
 use std::collections::HashSet;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
-/// A quarter of a minute and more to make: `tests/hammon.rs`, `ggx_lobes.rs`, `ltc_ggx.rs` look at a part of each.
-const SLOW: [&str; 3] = ["hammon", "ggx_lobes", "ltc_ggx"];
+/// A quarter of a minute and more to make: `tests/hammon.rs`, `ggx_lobes.rs`, `ltc_ggx.rs`, `ltc_sheen.rs` look at a part of each.
+const SLOW: [&str; 4] = ["hammon", "ggx_lobes", "ltc_ggx", "ltc_sheen"];
 
 /// Every recipe but those.
 fn names() -> Vec<String> {

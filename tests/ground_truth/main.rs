@@ -15,6 +15,7 @@ mod disney_zh;
 mod ggx_lobes;
 mod lobe_plane;
 mod ltc_ggx;
+mod ltc_sheen;
 mod recipes;
 mod sampling;
 mod sheen_albedo;
