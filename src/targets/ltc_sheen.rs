@@ -8,7 +8,7 @@
 //! `∫∫ |lobe - layer|³ dθ dφ` over angles of the hemisphere, not over solid angles. It differs in
 //! that the layer's lobe is computed, not estimated by random walks of at most 16 scatterings, and
 //! the integral is one instead of a sum over 32×32 angles: at grazing angles, where the lobe is as
-//! narrow as their bins, m11 is up to a tenth less.
+//! narrow as their bins, m11 is less, by 7 % at roughness .26 and n·v = .01.
 //!
 //! Method: the layer's lobe by its orders over azimuth, the fit by a simplex.
 

@@ -3,10 +3,11 @@
 use crate::{assert_near, committed};
 use lgp::dataset::{Dataset, Split};
 use lgp::targets::{Recipe, generate, targets};
+use rayon::prelude::*;
 use std::collections::HashSet;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
-/// A quarter of a minute and more to make: `tests/hammon.rs`, `ggx_lobes.rs`, `ltc_ggx.rs`, `ltc_sheen.rs` look at a part of each.
+/// A quarter of a minute and more to make; tests of their own look at a part of each.
 const SLOW: [&str; 4] = ["hammon", "ggx_lobes", "ltc_ggx", "ltc_sheen"];
 
 /// Every recipe but those.
@@ -103,4 +104,23 @@ fn committed_datasets_have_their_checksums() {
         .collect();
     files.sort();
     assert_eq!(listed, files);
+}
+
+/// Looks at every so manieth row of either split of a dataset that takes long to make.
+pub fn committed_values_are_found_again(name: &str, steps: [usize; 2]) {
+    let recipe = Recipe::load(&committed(&format!("{name}.ron"))).unwrap();
+    let made = Dataset::load(&committed(&format!("{name}.bin"))).unwrap();
+    assert_eq!(Recipe::parse(&made.origin.source()).unwrap(), recipe);
+    let truth = lgp::targets::truth(&recipe).unwrap();
+    for (split, step) in [&made.search, &made.validation].into_iter().zip(steps) {
+        let rows: Vec<usize> = (0..split.rows()).step_by(step).collect();
+        rows.into_par_iter().for_each(|row| {
+            let sample: Vec<f32> = split.columns.iter().map(|column| column[row]).collect();
+            let place = [f64::from(sample[0]), f64::from(sample[1])];
+            for (again, made) in truth.at(&place).unwrap().iter().zip(&sample[2..]) {
+                // Iterations end at other last digits where the system's functions do.
+                assert!((again - f64::from(*made)).abs() < 1e-5, "{place:?}: {again} {made}");
+            }
+        });
+    }
 }

@@ -1,9 +1,8 @@
 //! Linearly transformed cosines of GGX.
 
-use crate::{committed, reference};
-use lgp::dataset::{Dataset, Split};
+use crate::committed::committed_values_are_found_again;
+use crate::reference;
 use lgp::quadrature::TanhSinh;
-use lgp::targets::Recipe;
 use lgp::targets::dfg::{Masking, integrate};
 use lgp::targets::ltc_ggx::{ERROR, Fitter, distance};
 use rayon::prelude::*;
@@ -63,25 +62,7 @@ fn it_is_nearer_to_ggx_than_the_published_tables() {
     }
 }
 
-/// A part of the committed dataset, which takes a quarter of a minute to generate.
 #[test]
 fn the_committed_dataset_has_its_values() {
-    let recipe = Recipe::load(&committed("ltc_ggx.ron")).unwrap();
-    let made = Dataset::load(&committed("ltc_ggx.bin")).unwrap();
-    assert_eq!(Recipe::parse(&made.origin.source()).unwrap(), recipe);
-    let truth = lgp::targets::truth(&recipe).unwrap();
-    let check = |split: &Split, step: usize| {
-        let rows: Vec<usize> = (0..split.rows()).step_by(step).collect();
-        rows.into_par_iter().for_each(|row| {
-            let sample: Vec<f32> = split.columns.iter().map(|column| column[row]).collect();
-            let place = [f64::from(sample[0]), f64::from(sample[1])];
-            let again = truth.at(&place).unwrap();
-            for (again, made) in again.iter().zip(&sample[2..]) {
-                // Newton's method ends at other last digits where the system's functions do.
-                assert!((again - f64::from(*made)).abs() < 1e-5, "{place:?}: {again} {made}");
-            }
-        });
-    };
-    check(&made.search, 41);
-    check(&made.validation, 101);
+    committed_values_are_found_again("ltc_ggx", [41, 101]);
 }

@@ -1,9 +1,7 @@
 //! Linearly transformed cosines of sheen.
 
-use crate::committed;
-use lgp::dataset::{Dataset, Split};
-use lgp::targets::Recipe;
-use lgp::targets::ltc_sheen::{ERROR, Layer, Lobe};
+use crate::committed::committed_values_are_found_again;
+use lgp::targets::ltc_sheen::{Layer, Lobe};
 use rayon::prelude::*;
 
 /// Roughness, n·v, A, B and R of the published table (github.com/tizian/ltc-sheen,
@@ -27,23 +25,7 @@ fn it_agrees_with_the_published_table() {
     });
 }
 
-/// A part of the committed dataset.
 #[test]
 fn the_committed_dataset_has_its_values() {
-    let recipe = Recipe::load(&committed("ltc_sheen.ron")).unwrap();
-    let made = Dataset::load(&committed("ltc_sheen.bin")).unwrap();
-    assert_eq!(Recipe::parse(&made.origin.source()).unwrap(), recipe);
-    let truth = lgp::targets::truth(&recipe).unwrap();
-    let check = |split: &Split, step: usize| {
-        let rows: Vec<usize> = (0..split.rows()).step_by(step).collect();
-        rows.into_par_iter().for_each(|row| {
-            let sample: Vec<f32> = split.columns.iter().map(|column| column[row]).collect();
-            let again = truth.at(&[f64::from(sample[0]), f64::from(sample[1])]).unwrap();
-            for (again, made) in again.iter().zip(&sample[2..]) {
-                assert!((again - f64::from(*made)).abs() < ERROR, "{sample:?}: {again}");
-            }
-        });
-    };
-    check(&made.search, 199);
-    check(&made.validation, 2003);
+    committed_values_are_found_again("ltc_sheen", [199, 2003]);
 }
