@@ -140,7 +140,7 @@ fn time_of(gpu: &Gpu, load: &Load, program: &Program, names: &Names) -> Outcome<
 
 /// A shader that iterates the program: two inputs, two outputs.
 fn chain(program: &Program, names: &Names, chains: usize, iterations: u32) -> Outcome<Vec<u32>> {
-    let snippet = Snippet { program, names, function: "formula", header: &[] };
+    let snippet = Snippet::new(program, names, "formula");
     let each = |line: &dyn Fn(usize) -> String| (0..chains).map(line).collect::<String>();
     let source = format!(
         "{}

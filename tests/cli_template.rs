@@ -93,7 +93,7 @@ fn a_member_is_a_guess() {
 fn snippets_are_verified_and_checked() {
     let folder = searched();
     let here = folder.path();
-    for language in lgp::emit::Language::SHADING {
+    for language in lgp::emit::Language::ALL {
         let code = succeed(here, &["emit", "run1", "--lang", language.name()]);
         assert!(code.contains(&format!("template: {TEMPLATE}")), "{code}");
         assert!(code.contains("with f(x, r) = "), "{code}");

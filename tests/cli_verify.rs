@@ -28,8 +28,8 @@ fn verify(snippet: &Path, max_error: &str, more: &[&str]) -> Output {
 /// Some members of a front in each language that can be read back, each in a file of the folder.
 fn snippets(folder: &Path) -> Vec<(PathBuf, String)> {
     let mut found = Vec::new();
-    for (i, language) in Language::SHADING.iter().enumerate() {
-        for pick in (2 + i..=30).step_by(3) {
+    for (i, language) in Language::ALL.iter().enumerate() {
+        for pick in (2 + i % 9..=30).step_by(4) {
             let picked = ["--pick", &pick.to_string()];
             let code = emitted("tests/fixtures/dfg", language.name(), &picked);
             let path = folder.join(format!("{pick}.{}", language.extension()));
@@ -131,7 +131,11 @@ fn a_constant_changed_in_its_third_digit_is_caught() {
     let dataset = Dataset::load(&data()).unwrap();
     let folder = tempfile::tempdir().unwrap();
     for (path, snippet) in snippets(folder.path()) {
-        let language = Language::from_name(path.extension().unwrap().to_str().unwrap()).unwrap();
+        let language = Language::of_file(&path).unwrap();
+        // Others spell a saturation by numbers that need not matter.
+        if !language.has_halves() || language == Language::Cuda {
+            continue;
+        }
         let original = read_back(language, &snippet).unwrap();
         let body = snippet.find("{\n").unwrap();
         for range in constants(&snippet[body..]) {
@@ -361,7 +365,7 @@ fn what_cannot_be_read_is_refused_with_its_place() {
             BIAS.replace("float n_dot_v", "float n_dot_w").replace("7.0*n_dot_v", "n_dot_w"),
             "takes `n_dot_w`",
         ),
-        ("e.txt", BIAS.to_owned(), ".hlsl, .wgsl, .glsl, .metal or .slang"),
+        ("e.txt", BIAS.to_owned(), ".hlsl, .wgsl, .glsl, .es.glsl, .metal"),
         ("f.hlsl", String::new(), "line 1, column 1"),
         ("g.wgsl", "fn f(x: f32) -> f32 { for (;;) {} }".to_owned(), "line 1, column"),
     ] {

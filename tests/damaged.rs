@@ -132,7 +132,7 @@ fn used(folder: &Path) -> Result<(), RecordError> {
         let _ = (front.knee(), front.within(Some(3.0), None), front.to_json(&names));
         for member in &front.members {
             let program = &member.program;
-            let snippet = Snippet { program, names: &names, function: &run.name, header: &[] };
+            let snippet = Snippet::new(program, &names, &run.name);
             Language::ALL.iter().for_each(|&language| drop(emit::emit(language, &snippet)));
         }
         let _ = merge(vec![(run.clone(), front.clone()), (run.clone(), front)]);

@@ -36,7 +36,7 @@ pub fn driver() -> Option<PathBuf> {
 /// are WGSL's own, so that the compiler sees what it would see of a snippet.
 fn wgsl(program: &Program) -> String {
     let names = Names::new(INPUTS, ["result"]);
-    let snippet = Snippet { program, names: &names, function: "formula", header: &[] };
+    let snippet = Snippet::new(program, &names, "formula");
     let function = emit(Language::Wgsl, &snippet);
     let calls: Vec<String> = (0..COPIES)
         .map(|i| format!("    let v{i} = source[at + {i}u]; target_[at + {i}u] = formula_result(v{i}.x, v{i}.y, v{i}.z);"))

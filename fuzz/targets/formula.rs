@@ -42,7 +42,7 @@ fuzz_target!(|content: &[u8]| {
     }
     let cost = PROFILE.cost(&program);
     assert!(cost.cycles >= 0.0, "{text:?} costs {}", cost.cycles);
-    let snippet = Snippet { program: &program, names: &names, function: "f", header: &[] };
+    let snippet = Snippet::new(&program, &names, "f");
     for &language in Language::ALL {
         emit(language, &snippet);
         emit_half(language, &snippet, &[]);

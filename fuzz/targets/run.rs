@@ -32,12 +32,7 @@ fuzz_target!(|content: &[u8]| {
         let inputs: Vec<f32> = questions.domain.iter().map(|side| side.low()).collect();
         assert_eq!(member.program.evaluate(&inputs).len(), names.outputs.len());
         let header = [member.formula.clone()];
-        let snippet = Snippet {
-            program: &member.program,
-            names: &names,
-            function: &run.name,
-            header: &header,
-        };
+        let snippet = Snippet::new(&member.program, &names, &run.name).header(&header);
         for &language in Language::ALL {
             emit(language, &snippet);
         }

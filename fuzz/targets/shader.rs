@@ -10,9 +10,9 @@ const VALUES: [f32; 6] = [0.0, 1.0, -1.5, 0.3, 7.25, 1e20];
 fuzz_target!(|content: &[u8]| {
     let Some((first, rest)) = content.split_first() else { return };
     let Ok(text) = std::str::from_utf8(rest) else { return };
-    let language = Language::SHADING[usize::from(*first) % Language::SHADING.len()];
+    let language = Language::ALL[usize::from(*first) % Language::ALL.len()];
     let Ok(ReadBack { program, names, .. }) = read_back(language, text) else { return };
-    let snippet = Snippet { program: &program, names: &names, function: "f", header: &[] };
+    let snippet = Snippet::new(&program, &names, "f");
     let written = emit(language, &snippet);
     let again = read_back(language, &written)
         .unwrap_or_else(|error| panic!("what was written can be read: {error}\n{written}"))

@@ -55,7 +55,7 @@ fn half_help() -> String {
     format!(
         "Use half precision throughout ({}); refused if no half can hold some constant or value. The \
          function's comment says what accuracy is lost",
-        Language::names(Language::SHADING, "and")
+        Language::names(&Language::with_halves(), "and")
     )
 }
 
@@ -94,8 +94,8 @@ fn half(
     member: &FrontMember,
     bound: Option<f64>,
 ) -> Result<String, Failure> {
-    if !Language::SHADING.contains(&args.lang) {
-        let known = Language::names(Language::SHADING, "and");
+    if !args.lang.has_halves() {
+        let known = Language::names(&Language::with_halves(), "and");
         let message = format!("--half: {} has no halves; {known} do", args.lang);
         return Err(Failure::usage(message));
     }

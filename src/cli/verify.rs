@@ -100,7 +100,10 @@ fn snippet_on(args: &Args, dataset: &Path, common: &Common) -> Result<(), Failur
     let dataset = whole.select(Some(&names.inputs), Some(&names.outputs))?;
     let score = score(&code, &dataset);
     let stated = stated(&code, &names).map_err(|error| unusable(&args.snippet, &error))?;
-    let mismatch = stated.as_ref().and_then(|stated| mismatch(&code, stated, &dataset, &names));
+    // An equation does not say in what order its terms are computed.
+    let tolerance = if language == Language::Latex { 1e-5 } else { 0.0 };
+    let mismatch =
+        stated.as_ref().and_then(|stated| mismatch(&code, stated, &dataset, &names, tolerance));
     let agreement = stated.map(|_| mismatch);
     conclude(args, &score, &names.outputs, code.in_half, agreement, common)
 }
@@ -184,9 +187,7 @@ pub(super) fn unusable(path: &Path, reason: &dyn Display) -> Failure {
 }
 
 fn language_of(path: &Path) -> Result<Language, Failure> {
-    let extension = path.extension().unwrap_or_default().to_string_lossy().to_lowercase();
-    let found = Language::SHADING.iter().find(|language| language.extension() == extension);
-    found.copied().ok_or_else(|| {
+    Language::of_file(path).ok_or_else(|| {
         let known = extensions();
         unusable(path, &format!("its name says no language that can be read: {known}"))
     })
@@ -194,7 +195,7 @@ fn language_of(path: &Path) -> Result<Language, Failure> {
 
 /// Lists the file extensions that can be read.
 fn extensions() -> String {
-    Language::list(Language::SHADING, "or", |language| format!(".{}", language.extension()))
+    Language::list(Language::ALL, "or", |language| format!(".{}", language.extension()))
 }
 
 /// Returns the dataset's names for what the function takes and returns.
@@ -252,12 +253,22 @@ fn stated(code: &ReadBack, names: &Names) -> Result<Option<Stated>, StatedError>
 }
 
 /// Explains how the code differs from the formula in its comment.
-fn mismatch(code: &ReadBack, stated: &Stated, dataset: &Dataset, names: &Names) -> Option<String> {
-    let reason = match code.in_half {
-        true if code.is(&stated.program) => return None,
-        true => "its operations and numbers are others".to_owned(),
-        false => difference(&code.program, &stated.program, dataset, names).err()?,
+fn mismatch(
+    code: &ReadBack,
+    stated: &Stated,
+    dataset: &Dataset,
+    names: &Names,
+    tolerance: f32,
+) -> Option<String> {
+    let differs = |code: &ReadBack| match code.in_half {
+        true if code.is(&stated.program) => None,
+        true => Some("its operations and numbers are others".to_owned()),
+        false => difference(&code.program, &stated.program, dataset, names, tolerance).err(),
     };
+    let reason = differs(code)?;
+    if code.literal.as_ref().is_some_and(|code| differs(code).is_none()) {
+        return None;
+    }
     Some(format!(
         "the code does not compute the formula in its comment (line {}): {reason}; mend the code, or delete \
          that line of the comment if the change is meant",
@@ -265,12 +276,14 @@ fn mismatch(code: &ReadBack, stated: &Stated, dataset: &Dataset, names: &Names) 
     ))
 }
 
-/// Checks that two programs compute the same on the data, bit for bit; the error says where not.
+/// Checks that two programs compute the same on the data, bit for bit or within a share of the
+/// value; the error says where not.
 fn difference(
     program: &Program,
     formula: &Program,
     dataset: &Dataset,
     names: &Names,
+    tolerance: f32,
 ) -> Result<(), String> {
     let mut evaluator = Evaluator::default();
     for split in [&dataset.search, &dataset.validation] {
@@ -278,8 +291,10 @@ fn difference(
         let [found, expected] =
             [program, formula].map(|p| evaluator.outputs(&Tape::new(&p.unfused()), &samples));
         for (name, (found, expected)) in names.outputs.iter().zip(found.iter().zip(&expected)) {
-            let differs =
-                |(_, (f, e)): &(usize, (&f32, &f32))| !(f == e || f.is_nan() && e.is_nan());
+            let differs = |(_, (f, e)): &(usize, (&f32, &f32))| {
+                let near = tolerance > 0.0 && (*f - *e).abs() <= tolerance * e.abs().max(1.0);
+                !(f == e || f.is_nan() && e.is_nan() || near)
+            };
             if let Some((row, (f, e))) = found.iter().zip(expected).enumerate().find(differs) {
                 let at = names.inputs.iter().zip(&split.columns);
                 let at: Vec<String> =

@@ -1,19 +1,20 @@
 //! The statements of a function, in one precision or two.
 
 use super::naming::Naming;
-use super::syntax::{Binding, Signature, Spelling, Syntax, Written, pieces, power};
+use super::syntax::{Binding, Conversion, Head, Spelling, Syntax, Written, pieces, power};
 use crate::eval::{Arithmetic, Half};
 use crate::op::{MAX_ARITY, Op};
 use crate::program::spelling::{filled, move_signs, negated_product};
 use crate::program::{Arg, Program};
 use half::f16;
+use std::collections::HashMap;
 
 /// Returns a statement for each output, and for each result that is read or written more than once,
 /// or too long to stand where it is read.
 pub(super) fn statements(
     syntaxes: Syntaxes,
     program: &Program,
-    signature: &Signature,
+    head: &Head,
     naming: &mut Naming,
 ) -> Vec<String> {
     let forms = forms(program, syntaxes);
@@ -21,12 +22,13 @@ pub(super) fn statements(
     let mut body = Body {
         syntaxes,
         program,
-        signature,
+        head,
         naming,
         forms,
         codes: Vec::with_capacity(program.instrs.len()),
         statements: Vec::new(),
         non_finite: Vec::new(),
+        converted: HashMap::new(),
     };
     for (i, &count) in counts.iter().enumerate() {
         body.instruction(i, count);
@@ -158,13 +160,15 @@ impl Code {
 struct Body<'a, 'n> {
     syntaxes: Syntaxes<'a>,
     program: &'a Program,
-    signature: &'a Signature,
+    head: &'a Head,
     naming: &'a mut Naming<'n>,
     forms: Vec<Form>,
     codes: Vec<Code>,
     statements: Vec<String>,
     /// Infinities and NaNs declared so far: bits, whether a half, and name.
     non_finite: Vec<(u32, bool, String)>,
+    /// The locals that are values of the other precision, by those and by whether a half.
+    converted: HashMap<(String, bool), String>,
 }
 
 impl Body<'_, '_> {
@@ -183,16 +187,25 @@ impl Body<'_, '_> {
         };
         let same = syntax.half == self.syntaxes.function.half;
         if let Some(output) = output.filter(|_| same) {
-            code = self.declare(self.signature.outputs[output].clone(), &code.written.text, syntax);
+            code = self.output(output, &code.written.text, syntax);
         } else if count > 1 && code.in_place {
             self.name(&mut code);
         }
         if let Some(output) = output.filter(|_| !same) {
             let value = self.converted(code.clone(), self.syntaxes.function).written.text;
-            let name = self.signature.outputs[output].clone();
-            self.declare(name, &value, self.syntaxes.function);
+            self.output(output, &value, self.syntaxes.function);
         }
         self.codes.push(code);
+    }
+
+    /// Declares an output, or assigns it to its parameter.
+    fn output(&mut self, output: usize, value: &str, syntax: &Syntax) -> Code {
+        let name = self.head.outputs[output].clone();
+        if !self.head.is_parameter(output) {
+            return self.declare(name, value, syntax);
+        }
+        self.statements.push(format!("{name} = {value};"));
+        Code::name(name, syntax)
     }
 
     fn declare(&mut self, name: String, value: &str, syntax: &Syntax) -> Code {
@@ -210,14 +223,14 @@ impl Body<'_, '_> {
             }
             let syntax = self.syntaxes.function;
             let value = self.argument(arg, syntax).written.text;
-            self.declare(self.signature.outputs[o].clone(), &value, syntax);
+            self.output(o, &value, syntax);
         }
     }
 
     fn power(&mut self, base: Arg, count: u32, syntax: &'static Syntax) -> Code {
         let template = syntax.power.expect("powers are formed where they can be written");
         let mut code = self.expression(power(template), &[base], syntax);
-        code.written.text = code.written.text.replace("{n}", &count.to_string());
+        code.written.text = code.written.text.replace("{#}", &count.to_string());
         code
     }
 
@@ -301,11 +314,26 @@ impl Body<'_, '_> {
     }
 
     /// Converts the value to its reader's precision.
-    fn converted(&self, code: Code, to: &Syntax) -> Code {
+    fn converted(&mut self, code: Code, to: &Syntax) -> Code {
         if code.half == to.half {
             return code;
         }
-        let written = Written::name(format!("{}({})", to.types[0], code.written.text));
+        if to.conversion == Conversion::Local {
+            let mut code = code;
+            // Numbers have the precision of what they meet, which need not be the operation's.
+            if code.in_place {
+                self.name(&mut code);
+            }
+            let key = (code.written.text, to.half);
+            if let Some(name) = self.converted.get(&key) {
+                return Code::name(name.clone(), to);
+            }
+            let name = self.naming.temporary();
+            let code = self.declare(name.clone(), &key.0, to);
+            self.converted.insert(key, name);
+            return code;
+        }
+        let written = Written::name(format!("{}({})", to.constructor(1), code.written.text));
         Code { written, in_place: true, half: to.half }
     }
 
@@ -317,7 +345,7 @@ impl Body<'_, '_> {
     fn argument(&mut self, arg: Arg, to: &'static Syntax) -> Code {
         match arg {
             Arg::Input(i) => {
-                let name = &self.signature.inputs[usize::from(i)];
+                let name = &self.head.inputs[usize::from(i)];
                 let function = self.syntaxes.function;
                 self.converted(Code::name((function.written)(name), function), to)
             }

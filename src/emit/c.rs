@@ -1,10 +1,19 @@
-//! C99 and later; the same text is C++.
+//! C99 and later.
 
 use super::c_family;
+use super::language::{Entry, Form};
 use super::syntax::{
-    Signature, Spelling, Syntax, atom, decimal, is_word, negation, product, select, sum,
+    Head, Plain, Readable, Spelling, Syntax, atom, decimal, is_word, negation, product, select, sum,
 };
 use crate::op::Op;
+
+pub(super) const LANGUAGE: Entry = Entry {
+    name: "c",
+    aliases: &["c99"],
+    extension: "c",
+    form: Form::Function(&SYNTAX),
+    half: None,
+};
 
 pub(super) const SYNTAX: Syntax = Syntax {
     types: &["float"],
@@ -13,6 +22,15 @@ pub(super) const SYNTAX: Syntax = Syntax {
     literal: |value| decimal(value) + "f",
     non_finite: |name, _, bits| vec![format!("const float {name} = {};", non_finite(bits))],
     open,
+    readable: Readable {
+        plain: Plain::Double,
+        suffixes: &[("f", false), ("F", false)],
+        lines: &["#include <math.h>"],
+        of_locals: &["const"],
+        of_functions: &["static", "inline"],
+        of_parameters: &["const"],
+        ..c_family::SYNTAX.readable
+    },
     ..c_family::SYNTAX
 };
 
@@ -49,11 +67,11 @@ fn spelling(op: Op) -> Spelling {
         Op::Select => select("({a+} < {b+}) ? {c+} : {d+}"),
         Op::Floor => atom("floorf({a})"),
         Op::Fract => sum("{a+} - floorf({a})"),
-        Op::Sign => atom("(float)(({a+} > 0.0f) - ({a+} < 0.0f))"),
+        Op::Sign => select("({a+} > 0.0f) ? 1.0f : ({a+} < 0.0f) ? -1.0f : {a+}"),
     }
 }
 
-fn non_finite(bits: u32) -> &'static str {
+pub(super) fn non_finite(bits: u32) -> &'static str {
     match f32::from_bits(bits) {
         f32::INFINITY => "INFINITY",
         f32::NEG_INFINITY => "-INFINITY",
@@ -61,17 +79,16 @@ fn non_finite(bits: u32) -> &'static str {
     }
 }
 
-fn open(syntax: &Syntax, signature: &Signature, lines: &mut Vec<String>) {
-    let Signature { outputs, structure, .. } = signature;
+fn open(syntax: &Syntax, head: &Head, lines: &mut Vec<String>) {
     lines.extend(["#include <math.h>".to_owned(), String::new()]);
-    let returned = if outputs.len() == 1 { syntax.types[0] } else { structure };
-    if returned == structure {
+    let returned = c_family::returned_type(syntax, head);
+    if returned == head.structure {
         lines.push("typedef struct {".to_owned());
-        lines.extend(c_family::members(syntax, outputs));
-        lines.push(format!("}} {structure};"));
+        lines.extend(c_family::members(syntax, &head.outputs));
+        lines.push(format!("}} {returned};"));
         lines.push(String::new());
     }
-    lines.push(c_family::head(syntax, signature, returned));
+    lines.push(c_family::first_line(syntax, head, &returned));
 }
 
 /// Returns true for keywords, functions, macros, and names that begin with an underscore, which

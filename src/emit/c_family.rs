@@ -1,13 +1,20 @@
 //! The syntax that C-like languages share; each language overrides what differs.
 
 use super::syntax::{
-    Readable, Signature, Spelling, Syntax, atom, decimal, negation, product, select, sum,
+    Conversion, Head, Plain, Readable, Spelling, Style, Syntax, atom, decimal, negation, product,
+    select, sum,
 };
 use crate::op::Op;
 
 pub(super) const SYNTAX: Syntax = Syntax {
     comment: "//",
+    states_head: false,
     types: &[],
+    constructors: &[],
+    conversion: Conversion::Cast,
+    parameter: |of, name| format!("{of} {name}"),
+    out_parameter: None,
+    outputs_by_parameters: false,
     spelling,
     power: None,
     parentheses: ["(", ")"],
@@ -24,6 +31,12 @@ pub(super) const SYNTAX: Syntax = Syntax {
     close,
     float_of_bits: "",
     readable: Readable {
+        style: Style::C,
+        plain: Plain::Single,
+        suffixes: &[("f", false), ("F", false), ("h", true), ("H", true)],
+        comments: ["//", "/*"],
+        lines: &[],
+        namespaces: &[],
         of_locals: &[],
         of_functions: &[],
         of_parameters: &[],
@@ -70,16 +83,22 @@ pub(super) fn spelling(op: Op) -> Spelling {
     }
 }
 
-/// Opens a function that returns a float, a vector, or a structure.
-pub(super) fn open(syntax: &Syntax, signature: &Signature, lines: &mut Vec<String>) {
-    let Signature { outputs, structure, .. } = signature;
-    let returned = syntax.types.get(outputs.len() - 1).copied().unwrap_or(structure);
-    if returned == structure {
-        lines.push(format!("struct {structure} {{"));
-        lines.extend(members(syntax, outputs));
+/// Opens a function that returns nothing, a float, a vector, or a structure.
+pub(super) fn open(syntax: &Syntax, head: &Head, lines: &mut Vec<String>) {
+    let returned = returned_type(syntax, head);
+    if returned == head.structure {
+        lines.push(format!("struct {returned} {{"));
+        lines.extend(members(syntax, &head.outputs[..head.returned]));
         lines.push("};".to_owned());
     }
-    lines.push(head(syntax, signature, returned));
+    lines.push(first_line(syntax, head, &returned));
+}
+
+pub(super) fn returned_type(syntax: &Syntax, head: &Head) -> String {
+    match head.returned.checked_sub(1) {
+        None => "void".to_owned(),
+        Some(last) => syntax.types.get(last).map_or(&head.structure[..], |of| of).to_owned(),
+    }
 }
 
 /// Declares the outputs as members of a structure.
@@ -87,23 +106,48 @@ pub(super) fn members(syntax: &Syntax, outputs: &[String]) -> Vec<String> {
     outputs.iter().map(|name| format!("    {} {name};", syntax.types[0])).collect()
 }
 
-pub(super) fn head(syntax: &Syntax, signature: &Signature, returned: &str) -> String {
-    let Signature { function, inputs, .. } = signature;
-    let inputs: Vec<String> =
-        inputs.iter().map(|name| format!("{} {name}", syntax.types[0])).collect();
-    format!("{returned} {function}({}) {{", inputs.join(", "))
+pub(super) fn first_line(syntax: &Syntax, head: &Head, returned: &str) -> String {
+    let parameters = head.parameters.iter().map(|parameter| {
+        let of = syntax.types[parameter.size - 1];
+        match (parameter.out, syntax.out_parameter) {
+            (true, Some(out_parameter)) => out_parameter(of, &parameter.name),
+            _ => (syntax.parameter)(of, &parameter.name),
+        }
+    });
+    format!("{returned} {}({}) {{", head.function, parameters.collect::<Vec<_>>().join(", "))
 }
 
-pub(super) fn close(syntax: &Syntax, signature: &Signature, lines: &mut Vec<String>) {
-    let Signature { outputs, structure, result, .. } = signature;
-    let values = outputs.join(", ");
-    match syntax.types.get(outputs.len() - 1) {
-        Some(_) if outputs.len() == 1 => lines.push(format!("    return {values};")),
-        Some(vector) => lines.push(format!("    return {vector}({values});")),
-        None => {
-            lines.push(format!("    const {structure} {result} = {{ {values} }};"));
-            lines.push(format!("    return {result};"));
-        }
+pub(super) fn close(syntax: &Syntax, head: &Head, lines: &mut Vec<String>) {
+    lines.extend(assigned_vectors(syntax, head));
+    if head.returned > syntax.types.len() {
+        let Head { structure, result, .. } = head;
+        let values = head.outputs[..head.returned].join(", ");
+        lines.push(format!("    const {structure} {result} = {{ {values} }};"));
+        lines.push(format!("    return {result};"));
     }
+    lines.extend(returned_value(syntax, head));
     lines.push("}".to_owned());
+}
+
+/// Assigns vectors to the parameters that results leave by.
+pub(super) fn assigned_vectors(syntax: &Syntax, head: &Head) -> Vec<String> {
+    let vectors = head.out_places().into_iter().filter(|(parameter, _)| parameter.size > 1);
+    let assigned = vectors.map(|(parameter, outputs)| {
+        let (vector, values) =
+            (syntax.constructor(parameter.size), head.outputs[outputs].join(", "));
+        format!("    {} = {vector}({values});", parameter.name)
+    });
+    assigned.collect()
+}
+
+/// Returns the line that returns a float or a vector.
+pub(super) fn returned_value(syntax: &Syntax, head: &Head) -> Option<String> {
+    let values = head.outputs[..head.returned].join(", ");
+    match head.returned {
+        1 => Some(format!("    return {values};")),
+        n if n > 0 && n <= syntax.types.len() => {
+            Some(format!("    return {}({values});", syntax.constructor(n)))
+        }
+        _ => None,
+    }
 }

@@ -1,13 +1,23 @@
 //! GLSL: the common part of `#version 300 es` (WebGL2) and desktop versions.
 
 use super::c_family;
+use super::language::{Entry, Form};
 use super::syntax::{
-    Readable, Signature, Spelling, Syntax, atom, half_decimal_outward, is_word, product, sum,
+    Head, Readable, Spelling, Syntax, atom, half_decimal_outward, is_word, product, sum,
 };
 use crate::op::Op;
 
+pub(super) const LANGUAGE: Entry = Entry {
+    name: "glsl",
+    aliases: &["opengl", "webgl", "webgl2", "gl"],
+    extension: "glsl",
+    form: Form::Function(&SYNTAX),
+    half: Some(&HALF),
+};
+
 pub(super) const SYNTAX: Syntax = Syntax {
     types: &["float", "vec2", "vec3", "vec4"],
+    out_parameter: Some(|of, name| format!("out {of} {name}")),
     spelling,
     reserved,
     // In ES 3.00 the initialiser of a `const` must be constant.
@@ -19,6 +29,8 @@ pub(super) const SYNTAX: Syntax = Syntax {
         of_locals: &["const", "highp", "precise"],
         of_functions: &["highp", "precise"],
         of_parameters: &["const", "in", "highp"],
+        suffixes: &[("hf", true), ("HF", true), ("f", false), ("F", false)],
+        lines: &["#extension GL_EXT_shader_explicit_arithmetic_types_float16 : require"],
         ..c_family::SYNTAX.readable
     },
     ..c_family::SYNTAX
@@ -38,10 +50,10 @@ pub(super) const HALF: Syntax = Syntax {
     non_finite: |name, _, bits| {
         vec![format!("float16_t {name} = float16_t(uintBitsToFloat({bits:#010x}u));")]
     },
-    open: |syntax, signature, lines| {
+    open: |syntax, head, lines| {
         let extension = "#extension GL_EXT_shader_explicit_arithmetic_types_float16 : require";
         lines.extend([extension.to_owned(), String::new()]);
-        c_family::open(syntax, signature, lines);
+        c_family::open(syntax, head, lines);
     },
     ..SYNTAX
 };
@@ -57,16 +69,15 @@ fn spelling(op: Op) -> Spelling {
     }
 }
 
-fn close(syntax: &Syntax, signature: &Signature, lines: &mut Vec<String>) {
-    let Signature { outputs, structure, .. } = signature;
-    match syntax.types.get(outputs.len() - 1) {
-        Some(_) => c_family::close(syntax, signature, lines),
-        // ES 3.00 initialises a structure by its constructor.
-        None => {
-            lines.push(format!("    return {structure}({});", outputs.join(", ")));
-            lines.push("}".to_owned());
-        }
+fn close(syntax: &Syntax, head: &Head, lines: &mut Vec<String>) {
+    if head.returned <= syntax.types.len() {
+        return c_family::close(syntax, head, lines);
     }
+    lines.extend(c_family::assigned_vectors(syntax, head));
+    // ES 3.00 initialises a structure by its constructor.
+    let values = head.outputs[..head.returned].join(", ");
+    lines.push(format!("    return {}({values});", head.structure));
+    lines.push("}".to_owned());
 }
 
 fn reserved(name: &str) -> bool {

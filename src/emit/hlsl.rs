@@ -1,21 +1,33 @@
 //! HLSL, for shader model 5 and later.
 
 use super::c_family;
-use super::syntax::{Readable, Spelling, Syntax, atom, half_decimal_outward, is_word};
+use super::language::{Entry, Form};
+use super::syntax::{Plain, Readable, Spelling, Syntax, atom, half_decimal_outward, is_word};
 use crate::op::Op;
+
+pub(super) const LANGUAGE: Entry = Entry {
+    name: "hlsl",
+    aliases: &["directx", "dx", "fx"],
+    extension: "hlsl",
+    form: Form::Function(&SYNTAX),
+    half: Some(&HALF),
+};
 
 pub(super) const SYNTAX: Syntax = Syntax {
     types: &["float", "float2", "float3", "float4"],
+    out_parameter: Some(|of, name| format!("out {of} {name}")),
     spelling,
     reserved,
     non_finite: |name, _, bits| vec![format!("const float {name} = asfloat({bits:#010x});")],
     float_of_bits: "asfloat",
     readable: Readable {
+        plain: Plain::Open,
         of_locals: &["const", "precise"],
         of_functions: &["static", "inline", "precise"],
         of_parameters: &["const", "in"],
         semantics: true,
         integer_sign: true,
+        ..c_family::SYNTAX.readable
     },
     ..c_family::SYNTAX
 };

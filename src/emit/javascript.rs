@@ -2,7 +2,7 @@
 //! first rounded to f64, so it can differ from a fused one in the last place.
 
 use super::c_family;
-use super::syntax::{Signature, Spelling, Syntax, atom, is_word, negation};
+use super::syntax::{Head, Spelling, Syntax, atom, is_word, negation};
 use crate::op::Op;
 
 pub(super) const SYNTAX: Syntax = Syntax {
@@ -63,13 +63,13 @@ fn non_finite(bits: u32) -> &'static str {
     }
 }
 
-fn open(_: &Syntax, signature: &Signature, lines: &mut Vec<String>) {
-    let Signature { function, inputs, .. } = signature;
+fn open(_: &Syntax, head: &Head, lines: &mut Vec<String>) {
+    let Head { function, inputs, .. } = head;
     lines.push(format!("function {function}({}) {{", inputs.join(", ")));
 }
 
-fn close(_: &Syntax, signature: &Signature, lines: &mut Vec<String>) {
-    lines.push(format!("    return [{}];", signature.outputs.join(", ")));
+fn close(_: &Syntax, head: &Head, lines: &mut Vec<String>) {
+    lines.push(format!("    return [{}];", head.outputs.join(", ")));
     lines.push("}".to_owned());
 }
 

@@ -1,60 +1,62 @@
 //! The list of languages; all other lists are made from it.
 
 use super::syntax::Syntax;
-use super::{c, glsl, hlsl, latex, msl, python, rust, slang, wgsl};
+use super::{
+    c, cpp, cuda, glsl, glsl_es, hlsl, js, latex, materialx, msl, osl, python, rust, slang, tsl,
+    wgsl,
+};
 use crate::suggest::did_you_mean;
 use std::fmt;
+use std::path::Path;
 
-/// The facts of a language beside its syntax.
-struct Entry {
-    name: &'static str,
-    aliases: &'static [&'static str],
-    extension: &'static str,
-    syntax: &'static Syntax,
-    /// The syntax of halves; only shading languages, which are read back, have it.
-    half: Option<&'static Syntax>,
+/// The facts of a language; each language's file has one.
+pub(super) struct Entry {
+    pub name: &'static str,
+    pub aliases: &'static [&'static str],
+    pub extension: &'static str,
+    pub form: Form,
+    /// The syntax of halves, if the language has them.
+    pub half: Option<&'static Syntax>,
 }
 
-/// `Variant: module, "name", [aliases], "extension";` A shading language's module has a `HALF`.
+/// What a program is written as.
+pub(super) enum Form {
+    /// A function, by its syntax.
+    Function(&'static Syntax),
+    /// A graph of nodes.
+    Graph,
+}
+
+/// `Variant: module;` A language's module has its `LANGUAGE`.
 macro_rules! languages {
-    (
-        shading { $($(#[$shading_doc:meta])* $shading:ident: $s:ident, $s_name:literal,
-            [$($s_alias:literal),*], $s_extension:literal;)* }
-        others { $($(#[$other_doc:meta])* $other:ident: $o:ident, $o_name:literal,
-            [$($o_alias:literal),*], $o_extension:literal;)* }
-    ) => {
+    ($($(#[$doc:meta])* $language:ident: $module:ident;)*) => {
         /// A language that programs can be written in.
         #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
         pub enum Language {
-            $($(#[$shading_doc])* $shading,)*
-            $($(#[$other_doc])* $other,)*
+            $($(#[$doc])* $language,)*
         }
 
         impl Language {
             /// Every language.
-            pub const ALL: &'static [Language] =
-                &[$(Language::$shading,)* $(Language::$other,)*];
+            pub const ALL: &'static [Language] = &[$(Language::$language,)*];
 
-            /// The shading languages: they have halves, and [`read_back`](super::read_back)
-            /// understands them.
-            pub const SHADING: &'static [Language] = &[$(Language::$shading,)*];
+            /// Those that a run's folder and page hold of each member: all would be thousands of
+            /// files, and `lgp emit` writes them.
+            pub const OF_RUNS: &'static [Language] = &[
+                Language::Hlsl,
+                Language::Wgsl,
+                Language::Glsl,
+                Language::Msl,
+                Language::Slang,
+                Language::C,
+                Language::Rust,
+                Language::Python,
+                Language::Latex,
+            ];
 
-            const fn entry(self) -> Entry {
+            const fn entry(self) -> &'static Entry {
                 match self {
-                    $(Language::$shading => Entry {
-                        name: $s_name,
-                        aliases: &[$($s_alias),*],
-                        extension: $s_extension,
-                        syntax: &$s::SYNTAX,
-                        half: Some(&$s::HALF),
-                    },)*
-                    $(Language::$other => Entry {
-                        name: $o_name,
-                        aliases: &[$($o_alias),*],
-                        extension: $o_extension,
-                        syntax: &$o::SYNTAX,
-                        half: None,
-                    },)*
+                    $(Language::$language => &$module::LANGUAGE,)*
                 }
             }
         }
@@ -62,28 +64,38 @@ macro_rules! languages {
 }
 
 languages! {
-    shading {
-        /// Direct3D, Unity, Unreal; shader model 5 and later.
-        Hlsl: hlsl, "hlsl", ["directx", "dx", "fx"], "hlsl";
-        /// WebGPU.
-        Wgsl: wgsl, "wgsl", ["webgpu", "wgpu"], "wgsl";
-        /// OpenGL, Vulkan, WebGL2: the common part of `#version 300 es` and desktop GLSL.
-        Glsl: glsl, "glsl", ["opengl", "webgl", "webgl2", "essl", "gl"], "glsl";
-        /// Metal, with `using namespace metal`.
-        Msl: msl, "msl", ["metal"], "metal";
-        /// For `slangc`, which compiles it for most GPUs.
-        Slang: slang, "slang", [], "slang";
-    }
-    others {
-        /// C99 and C++.
-        C: c, "c", ["c99", "c++", "cpp"], "c";
-        /// Functions of `f32`.
-        Rust: rust, "rust", ["rs"], "rs";
-        /// Functions of numpy arrays.
-        Python: python, "python", ["py", "numpy"], "py";
-        /// An `align*`, for a paper.
-        Latex: latex, "latex", ["tex"], "tex";
-    }
+    /// Direct3D, Unity, Unreal; shader model 5 and later.
+    Hlsl: hlsl;
+    /// WebGPU.
+    Wgsl: wgsl;
+    /// OpenGL, Vulkan, WebGL2: the common part of `#version 300 es` and desktop GLSL.
+    Glsl: glsl;
+    /// OpenGL ES 3 and WebGL2, with precision qualifiers.
+    GlslEs: glsl_es;
+    /// Metal, with `using namespace metal`.
+    Msl: msl;
+    /// For `slangc`, which compiles it for most GPUs.
+    Slang: slang;
+    /// Open Shading Language: Cycles, Arnold, RenderMan.
+    Osl: osl;
+    /// A MaterialX document: a node and the graph that it is.
+    MaterialX: materialx;
+    /// three.js's node language.
+    Tsl: tsl;
+    /// Functions of `Number`.
+    Js: js;
+    /// CUDA C++, for device and host.
+    Cuda: cuda;
+    /// C++14; `constexpr` where it is arithmetic alone.
+    Cpp: cpp;
+    /// C99.
+    C: c;
+    /// Functions of `f32`.
+    Rust: rust;
+    /// Functions of numpy arrays.
+    Python: python;
+    /// An `align*`, for a paper.
+    Latex: latex;
 }
 
 /// A name that no language has.
@@ -146,8 +158,32 @@ impl Language {
         self.entry().extension
     }
 
-    pub(super) fn syntax(self) -> &'static Syntax {
-        self.entry().syntax
+    /// Returns the language of a file, by the longest extension that its name ends with.
+    pub fn of_file(path: &Path) -> Option<Language> {
+        let name = path.file_name()?.to_str()?.to_ascii_lowercase();
+        let of = |language: &&Language| {
+            name.strip_suffix(language.extension()).is_some_and(|name| name.ends_with('.'))
+        };
+        let known = Language::ALL.iter().filter(of);
+        known.max_by_key(|language| language.extension().len()).copied()
+    }
+
+    /// Returns true if the language has numbers of half precision.
+    pub fn has_halves(self) -> bool {
+        self.entry().half.is_some()
+    }
+
+    /// Returns the languages that have numbers of half precision.
+    pub fn with_halves() -> Vec<Language> {
+        Language::ALL.iter().copied().filter(|language| language.has_halves()).collect()
+    }
+
+    /// Returns the syntax of functions; none where programs are written as something else.
+    pub(super) fn syntax(self) -> Option<&'static Syntax> {
+        match self.entry().form {
+            Form::Function(syntax) => Some(syntax),
+            Form::Graph => None,
+        }
     }
 
     /// Returns the syntax of halves, if there is one.

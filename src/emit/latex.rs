@@ -1,15 +1,28 @@
 //! LaTeX: an amsmath `align*` with an equation for each statement.
 
 use super::c_family;
-use super::syntax::{Signature, Spelling, Syntax, atom, negation, power, product, select, sum};
+use super::language::{Entry, Form};
+use super::syntax::{Head, Spelling, Syntax, atom, negation, power, product, select, sum};
 use super::typeset::{Name, greek};
 use crate::op::Op;
 use crate::program::format_constant;
 
+pub(super) const LANGUAGE: Entry = Entry {
+    name: "latex",
+    aliases: &["tex"],
+    extension: "tex",
+    form: Form::Function(&SYNTAX),
+    half: None,
+};
+
+/// The mark of the comment that says what is computed of what, which equations do not.
+pub(super) const COLUMNS: &str = "columns:";
+
 pub(super) const SYNTAX: Syntax = Syntax {
     comment: "%",
+    states_head: true,
     spelling,
-    power: Some("{a!}^{{n}}"),
+    power: Some("{a!}^{{#}}"),
     parentheses: [r"\left(", r"\right)"],
     width: 200,
     reserved: |_| false,
@@ -61,7 +74,7 @@ fn spelling(op: Op) -> Spelling {
     }
 }
 
-fn close(_: &Syntax, _: &Signature, lines: &mut Vec<String>) {
+fn close(_: &Syntax, _: &Head, lines: &mut Vec<String>) {
     // A break after the last row would leave an empty one.
     if let Some(last) = lines.last_mut() {
         *last = last.trim_end_matches(r" \\").to_owned();
@@ -96,7 +109,7 @@ fn non_finite(bits: u32) -> &'static str {
 }
 
 /// Typesets a name by the parts that [`Name`] finds; words of several letters are upright.
-fn written(name: &str) -> String {
+pub(super) fn written(name: &str) -> String {
     let upright = |word: &str| format!(r"\mathrm{{{}}}", word.replace('_', r"\_"));
     let symbol = |word: &str| match greek(word) {
         Some((name, _)) => format!(r"\{name}"),

@@ -17,7 +17,7 @@
 //! use lgp::program::{Names, parse};
 //! let names = Names::new(["n_dot_v", "roughness"], ["bias"]);
 //! let program = parse("bias = exp2(-(7*n_dot_v + 4*roughness^2))", &names)?;
-//! let snippet = Snippet { program: &program, names: &names, function: "dfg", header: &[] };
+//! let snippet = Snippet::new(&program, &names, "dfg");
 //! assert_eq!(
 //!     emit(Language::Wgsl, &snippet),
 //!     "fn dfg_bias(n_dot_v: f32, roughness: f32) -> f32 {
@@ -32,20 +32,28 @@
 mod body;
 mod c;
 mod c_family;
+mod cpp;
+mod cuda;
 mod glsl;
+mod glsl_es;
 mod header;
 mod hlsl;
 mod javascript;
+mod js;
 mod language;
 mod latex;
+mod materialx;
 mod mathml;
 mod msl;
 mod naming;
+mod osl;
 mod python;
 mod read;
 mod rust;
+mod signature;
 mod slang;
 mod syntax;
+mod tsl;
 mod typeset;
 mod wgsl;
 
@@ -54,7 +62,9 @@ pub use language::{Language, UnknownLanguage};
 pub use read::{
     MAX_SNIPPET, Precision, ReadBack, ReadError, Stated, StatedError, formula_line, read_back,
 };
+pub use signature::{Parameter, Signature};
 
+use crate::op::Op;
 use crate::program::{Names, Program};
 use body::Syntaxes;
 use naming::Naming;
@@ -63,23 +73,46 @@ use syntax::Syntax;
 /// A function to be written.
 #[derive(Clone, Copy, Debug)]
 pub struct Snippet<'a> {
-    /// The program that the function computes.
-    pub program: &'a Program,
-    /// Names for each input and output of the program.
-    pub names: &'a Names,
-    /// The function's name; with a single output it becomes `function_output`.
-    pub function: &'a str,
-    /// Lines of the comment above the function.
-    pub header: &'a [String],
+    program: &'a Program,
+    names: &'a Names,
+    function: &'a str,
+    signature: Option<&'a Signature>,
+    header: Option<&'a [String]>,
+}
+
+impl<'a> Snippet<'a> {
+    /// Makes a snippet of a program, with a name for each of its inputs and outputs. With a single
+    /// output the function becomes `function_output`.
+    pub fn new(program: &'a Program, names: &'a Names, function: &'a str) -> Snippet<'a> {
+        Snippet { program, names, function, signature: None, header: Some(&[]) }
+    }
+
+    /// Gives the function a comment of these lines above it.
+    pub fn header(self, header: &'a [String]) -> Snippet<'a> {
+        Snippet { header: Some(header), ..self }
+    }
+
+    /// Takes all comments away.
+    pub fn without_comments(self) -> Snippet<'a> {
+        Snippet { header: None, ..self }
+    }
+
+    /// Gives the function another head, whose components are the program's inputs and outputs.
+    pub fn signature(self, signature: &'a Signature) -> Snippet<'a> {
+        Snippet { signature: Some(signature), ..self }
+    }
 }
 
 /// Writes the snippet as a function of the language, ready to paste. A name that means something in
 /// the language is written differently, and a comment says so.
 ///
 /// # Panics
-/// If `names` does not have a name for each input and output of the program.
+/// If the snippet does not have a name for each input and output of its program.
 pub fn emit(language: Language, snippet: &Snippet) -> String {
-    written(Syntaxes::one(language.syntax()), snippet)
+    match language.syntax() {
+        Some(syntax) => written(Syntaxes::one(syntax), snippet),
+        None => materialx::written(snippet, &function_name(snippet)),
+    }
 }
 
 /// Writes the same function in half precision, including arguments, constants and outputs, except
@@ -91,7 +124,7 @@ pub fn emit(language: Language, snippet: &Snippet) -> String {
 /// As [`emit`] does.
 pub fn emit_half(language: Language, snippet: &Snippet, stay_single: &[usize]) -> Option<String> {
     let syntax = language.half_syntax()?;
-    let single = language.syntax();
+    let single = language.syntax()?;
     Some(written(Syntaxes { function: syntax, single, stay_single }, snippet))
 }
 
@@ -100,7 +133,7 @@ pub fn emit_half(language: Language, snippet: &Snippet, stay_single: &[usize]) -
 pub fn javascript(program: &Program) -> String {
     let numbered = |letter: char, count| (0..count).map(move |i| format!("{letter}{i}"));
     let names = Names::new(numbered('x', program.inputs), numbered('y', program.outputs.len()));
-    let snippet = Snippet { program, names: &names, function: "formula", header: &[] };
+    let snippet = Snippet::new(program, &names, "formula");
     written(Syntaxes::one(&javascript::SYNTAX), &snippet)
 }
 
@@ -109,33 +142,62 @@ pub fn javascript(program: &Program) -> String {
 /// # Panics
 /// As [`emit`] does.
 pub fn mathml(snippet: &Snippet) -> String {
-    written(Syntaxes::one(&mathml::SYNTAX), &Snippet { header: &[], ..*snippet })
+    written(Syntaxes::one(&mathml::SYNTAX), &snippet.without_comments())
 }
 
 fn written(syntaxes: Syntaxes, snippet: &Snippet) -> String {
     let syntax = syntaxes.function;
-    let Snippet { program, names, function, header } = *snippet;
+    let Snippet { program, names, header, .. } = *snippet;
     assert_eq!(names.inputs.len(), program.inputs, "a name for each input");
     assert_eq!(names.outputs.len(), program.outputs.len(), "a name for each output");
-    let function = function_name(function, names);
-    let mut naming = Naming::new(syntax.reserved, &function, names);
-    let signature = naming.signature();
+    let usual = Signature::of(&function_name(snippet), names, syntax.outputs_by_parameters);
+    let mut naming =
+        Naming::new(syntax.reserved, snippet.signature.unwrap_or(&usual), &names.outputs);
+    let head = naming.head(is_arithmetic(program));
     let mut lines: Vec<String> = Vec::new();
-    // A language without comments would show them, or read them as code.
-    if !syntax.comment.is_empty() {
+    if let Some(header) = header.filter(|_| !syntax.comment.is_empty()) {
         lines.extend(header::commented(syntax.comment, header));
         lines.extend(header::commented(syntax.comment, &naming.renamed()));
+        if syntax.states_head {
+            let [inputs, outputs] = [&head.inputs, &head.outputs].map(|names| names.join(", "));
+            let head = format!("{} {inputs} -> {outputs}", latex::COLUMNS);
+            lines.extend(header::commented(syntax.comment, &[head]));
+        }
     }
-    (syntax.open)(syntax, &signature, &mut lines);
-    let statements = body::statements(syntaxes, program, &signature, &mut naming);
+    (syntax.open)(syntax, &head, &mut lines);
+    let statements = body::statements(syntaxes, program, &head, &mut naming);
     lines.extend(statements.iter().map(|line| format!("    {line}")));
-    (syntax.close)(syntax, &signature, &mut lines);
+    (syntax.close)(syntax, &head, &mut lines);
     lines.join("\n") + "\n"
 }
 
+/// Returns true if the program computes no more than arithmetic, comparisons, minima and maxima.
+fn is_arithmetic(program: &Program) -> bool {
+    program.instrs.iter().all(|instr| {
+        matches!(
+            instr.op(),
+            Op::Add
+                | Op::Sub
+                | Op::Mul
+                | Op::Div
+                | Op::Neg
+                | Op::Mad
+                | Op::Rcp
+                | Op::Lerp
+                | Op::Min
+                | Op::Max
+                | Op::Saturate
+                | Op::Step
+                | Op::Select
+                | Op::Sign
+        )
+    })
+}
+
 /// Returns `dfg_bias` for the single output `bias` of `dfg`, unless the name says it already.
-fn function_name(function: &str, names: &Names) -> String {
-    match names.outputs.as_slice() {
+fn function_name(snippet: &Snippet) -> String {
+    let function = snippet.function;
+    match snippet.names.outputs.as_slice() {
         [output] if function != output && !function.ends_with(&format!("_{output}")) => {
             format!("{function}_{output}")
         }

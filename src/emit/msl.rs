@@ -1,11 +1,21 @@
 //! MSL, the Metal shading language, under `using namespace metal`.
 
 use super::c_family;
+use super::language::{Entry, Form};
 use super::syntax::{Readable, Syntax, half_decimal, is_word, product};
 use crate::op::Op;
 
+pub(super) const LANGUAGE: Entry = Entry {
+    name: "msl",
+    aliases: &["metal"],
+    extension: "metal",
+    form: Form::Function(&SYNTAX),
+    half: Some(&HALF),
+};
+
 pub(super) const SYNTAX: Syntax = Syntax {
     types: &["float", "float2", "float3", "float4"],
+    out_parameter: Some(|of, name| format!("thread {of} &{name}")),
     reserved,
     non_finite: |name, _, bits| {
         vec![format!("const float {name} = as_type<float>({bits:#010x}u);")]

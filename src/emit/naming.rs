@@ -1,31 +1,29 @@
 //! Names that a language allows, without collisions.
 
 use super::read::name_line;
-use super::syntax::Signature;
-use crate::program::Names;
+use super::signature::{Parameter, Signature};
+use super::syntax::Head;
 use std::collections::HashSet;
 
 /// The names of one function, and those already taken.
 pub(super) struct Naming<'a> {
     reserved: fn(&str) -> bool,
     taken: HashSet<String>,
-    function: &'a str,
-    names: &'a Names,
-    /// The names of the function, inputs and outputs.
+    signature: &'a Signature,
+    outputs: &'a [String],
+    /// The names of the function, its parameters, and the outputs that are none of them.
     written: Vec<String>,
     temporaries: usize,
 }
 
 impl<'a> Naming<'a> {
-    pub fn new(reserved: fn(&str) -> bool, function: &'a str, names: &'a Names) -> Naming<'a> {
-        let mut naming = Naming {
-            reserved,
-            taken: HashSet::new(),
-            function,
-            names,
-            written: Vec::new(),
-            temporaries: 0,
-        };
+    pub fn new(
+        reserved: fn(&str) -> bool,
+        signature: &'a Signature,
+        outputs: &'a [String],
+    ) -> Naming<'a> {
+        let (taken, written) = (HashSet::new(), Vec::new());
+        let mut naming = Naming { reserved, taken, signature, outputs, written, temporaries: 0 };
         // A renamed name must not take one that another may keep.
         let kept: Vec<bool> = naming.wanted().iter().map(|name| naming.keep(name)).collect();
         naming.written = (naming.wanted().iter().zip(kept))
@@ -35,17 +33,44 @@ impl<'a> Naming<'a> {
     }
 
     fn wanted(&self) -> Vec<&'a str> {
-        let columns = self.names.inputs.iter().chain(&self.names.outputs);
-        std::iter::once(self.function).chain(columns.map(String::as_str)).collect()
+        let parameters = self.signature.parameters.iter().map(|parameter| &*parameter.name);
+        let first = std::iter::once(&*self.signature.function).chain(parameters);
+        first.chain(self.locals().map(String::as_str)).collect()
     }
 
-    pub fn signature(&mut self) -> Signature {
-        let function = self.written[0].clone();
-        let inputs = self.written[1..=self.names.inputs.len()].to_vec();
-        let outputs = self.written[1 + self.names.inputs.len()..].to_vec();
+    /// Returns the outputs that are no parameters by themselves.
+    fn locals(&self) -> impl Iterator<Item = &'a String> + use<'a> {
+        let Signature { parameters, returned, .. } = self.signature;
+        let out = parameters.iter().filter(|parameter| parameter.out);
+        let alone = out.flat_map(|parameter| vec![parameter.size == 1; parameter.size]);
+        let alone = std::iter::repeat_n(false, *returned).chain(alone);
+        self.outputs.iter().zip(alone).filter(|(_, alone)| !alone).map(|(output, _)| output)
+    }
+
+    pub fn head(&mut self, arithmetic: bool) -> Head {
+        let Signature { parameters, returned, .. } = self.signature;
+        let mut names = self.written.iter().cloned();
+        let function = names.next().expect("a function has a name");
+        let parameters: Vec<Parameter> = (parameters.iter().zip(names.by_ref()))
+            .map(|(parameter, name)| Parameter { name, ..*parameter })
+            .collect();
+        let components = |out| {
+            let some = parameters.iter().filter(move |parameter| parameter.out == out);
+            some.flat_map(move |parameter| match parameter.size {
+                // Of a vector, locals hold the components until all are known.
+                size if out && size > 1 => vec![None; size],
+                _ => parameter.components().into_iter().map(Some).collect(),
+            })
+        };
+        let inputs = components(false).flatten().collect();
+        let outputs = std::iter::repeat_n(None, *returned).chain(components(true));
+        let outputs = outputs
+            .map(|name| name.unwrap_or_else(|| names.next().expect("a name for each local")))
+            .collect();
         let structure = self.fresh(&format!("{function}_outputs"));
         let result = self.fresh("result");
-        Signature { function, inputs, outputs, structure, result }
+        let returned = *returned;
+        Head { function, parameters, inputs, outputs, returned, structure, result, arithmetic }
     }
 
     /// Returns a line for each name that could not be kept.
@@ -112,6 +137,7 @@ fn plain(name: &str) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::program::Names;
 
     #[test]
     fn any_text_becomes_a_plain_identifier() {
@@ -129,7 +155,8 @@ mod tests {
     #[test]
     fn what_is_reserved_by_its_beginning_is_renamed() {
         let names = Names::new(["gl_", "gl__", "gl_2"], ["gl"]);
-        let naming = Naming::new(|name| name.starts_with("gl_"), "gl", &names);
+        let signature = Signature::of("gl", &names, false);
+        let naming = Naming::new(|name| name.starts_with("gl_"), &signature, &names.outputs);
         assert_eq!(naming.written, ["gl", "x_gl", "x_gl_", "x_gl_2", "x_gl_3"]);
     }
 
@@ -137,7 +164,8 @@ mod tests {
     fn a_renamed_name_takes_none_that_another_may_keep() {
         let names = Names::new(["cos", "cos_", "_", ""], ["cos_2", "cos"]);
         let reserved = |name: &str| name == "cos" || name == "_";
-        let naming = Naming::new(reserved, "cos", &names);
+        let signature = Signature::of("cos", &names, false);
+        let naming = Naming::new(reserved, &signature, &names.outputs);
         assert_eq!(naming.written, ["cos_3", "cos_4", "cos_", "x", "x_", "cos_2", "cos_5"]);
     }
 }

@@ -1,8 +1,19 @@
 //! Python, on numpy arrays of any shape, or on numbers.
 
 use super::c_family;
-use super::syntax::{Signature, Spelling, Syntax, atom, is_word, negation, product, sum};
+use super::language::{Entry, Form};
+use super::syntax::{
+    Head, Plain, Readable, Spelling, Style, Syntax, atom, is_word, negation, product, sum,
+};
 use crate::op::Op;
+
+pub(super) const LANGUAGE: Entry = Entry {
+    name: "python",
+    aliases: &["py", "numpy"],
+    extension: "py",
+    form: Form::Function(&SYNTAX),
+    half: None,
+};
 
 pub(super) const SYNTAX: Syntax = Syntax {
     comment: "#",
@@ -12,6 +23,15 @@ pub(super) const SYNTAX: Syntax = Syntax {
     non_finite: |name, _, bits| vec![format!("{name} = {}", non_finite(bits))],
     open,
     close,
+    readable: Readable {
+        style: Style::Python,
+        plain: Plain::Number,
+        suffixes: &[],
+        comments: ["#", "\"\"\""],
+        lines: &["import numpy as np"],
+        namespaces: &["np."],
+        ..c_family::SYNTAX.readable
+    },
     ..c_family::SYNTAX
 };
 
@@ -43,9 +63,9 @@ fn spelling(op: Op) -> Spelling {
         Op::Atan => atom("np.arctan({a})"),
         Op::Atan2 => atom("np.arctan2({a}, {b})"),
         Op::Tanh => atom("np.tanh({a})"),
-        Op::Lerp => sum("{a+} + {c*}*({b+} - {a*})"),
+        Op::Lerp => sum("{a+} + ({b+} - {a*})*{c-}"),
+        Op::Step => atom("np.float32(np.where({b+} >= {a+}, 1.0, 0.0))"),
         // `where` would make doubles of two plain numbers.
-        Op::Step => atom("np.float32({b+} >= {a+})"),
         Op::Select => atom("np.float32(np.where({a+} < {b+}, {c}, {d}))"),
         Op::Floor => atom("np.floor({a})"),
         Op::Fract => sum("{a+} - np.floor({a})"),
@@ -61,14 +81,14 @@ fn non_finite(bits: u32) -> &'static str {
     }
 }
 
-fn open(_: &Syntax, signature: &Signature, lines: &mut Vec<String>) {
-    let Signature { function, inputs, .. } = signature;
+fn open(_: &Syntax, head: &Head, lines: &mut Vec<String>) {
+    let Head { function, inputs, .. } = head;
     lines.extend(["import numpy as np", "", ""].map(str::to_owned));
     lines.push(format!("def {function}({}):", inputs.join(", ")));
 }
 
-fn close(_: &Syntax, signature: &Signature, lines: &mut Vec<String>) {
-    lines.push(format!("    return {}", signature.outputs.join(", ")));
+fn close(_: &Syntax, head: &Head, lines: &mut Vec<String>) {
+    lines.push(format!("    return {}", head.outputs.join(", ")));
 }
 
 fn reserved(name: &str) -> bool {

@@ -1,17 +1,36 @@
 //! Rust, on `f32`.
 
 use super::c_family;
-use super::syntax::{Signature, Spelling, Syntax, atom, is_word, negation, product, select, sum};
+use super::language::{Entry, Form};
+use super::syntax::{
+    Head, Readable, Spelling, Style, Syntax, atom, is_word, negation, product, select, sum,
+};
 use crate::op::Op;
+
+pub(super) const LANGUAGE: Entry = Entry {
+    name: "rust",
+    aliases: &["rs"],
+    extension: "rs",
+    form: Form::Function(&SYNTAX),
+    half: None,
+};
 
 pub(super) const SYNTAX: Syntax = Syntax {
     types: &["f32"],
+    parameter: |of, name| format!("{name}: {of}"),
     spelling,
     reserved,
     local: |_, name, value| format!("let {name} = {value};"),
     non_finite: |name, _, bits| vec![format!("let {name} = {};", non_finite(bits))],
     open,
     close,
+    readable: Readable {
+        style: Style::Rust,
+        suffixes: &[("f32", false)],
+        namespaces: &["f32::"],
+        of_functions: &["pub", "const"],
+        ..c_family::SYNTAX.readable
+    },
     ..c_family::SYNTAX
 };
 
@@ -46,11 +65,11 @@ fn spelling(op: Op) -> Spelling {
         Op::Atan2 => atom("f32::atan2({a}, {b})"),
         Op::Tanh => atom("f32::tanh({a})"),
         Op::Lerp => atom("f32::mul_add({c}, {b+} - {a*}, {a})"),
-        Op::Step => atom("f32::from({b+} >= {a+})"),
+        Op::Step => select("if {b+} >= {a+} { 1.0 } else { 0.0 }"),
         Op::Select => select("if {a+} < {b+} { {c} } else { {d} }"),
         Op::Floor => atom("f32::floor({a})"),
         Op::Fract => sum("{a+} - f32::floor({a})"),
-        Op::Sign => select("if {a+} == 0.0 { {a} } else { f32::signum({a}) }"),
+        Op::Sign => select("if {a+} > 0.0 { 1.0 } else if {a+} < 0.0 { -1.0 } else { {a} }"),
     }
 }
 
@@ -62,9 +81,9 @@ fn non_finite(bits: u32) -> &'static str {
     }
 }
 
-fn open(_: &Syntax, signature: &Signature, lines: &mut Vec<String>) {
-    let Signature { function, inputs, outputs, .. } = signature;
-    let inputs: Vec<String> = inputs.iter().map(|name| format!("{name}: f32")).collect();
+fn open(syntax: &Syntax, head: &Head, lines: &mut Vec<String>) {
+    let Head { function, inputs, outputs, .. } = head;
+    let inputs: Vec<String> = inputs.iter().map(|name| (syntax.parameter)("f32", name)).collect();
     let returned = match outputs.len() {
         1 => "f32".to_owned(),
         n => format!("({})", vec!["f32"; n].join(", ")),
@@ -72,9 +91,9 @@ fn open(_: &Syntax, signature: &Signature, lines: &mut Vec<String>) {
     lines.push(format!("pub fn {function}({}) -> {returned} {{", inputs.join(", ")));
 }
 
-fn close(_: &Syntax, signature: &Signature, lines: &mut Vec<String>) {
-    let values = signature.outputs.join(", ");
-    lines.push(if signature.outputs.len() == 1 {
+fn close(_: &Syntax, head: &Head, lines: &mut Vec<String>) {
+    let values = head.outputs.join(", ");
+    lines.push(if head.outputs.len() == 1 {
         format!("    {values}")
     } else {
         format!("    ({values})")

@@ -1,12 +1,25 @@
 //! Slang: HLSL with other reserved words.
 
 use super::hlsl;
-use super::syntax::{Syntax, is_word};
+use super::language::{Entry, Form};
+use super::syntax::{Plain, Readable, Syntax, is_word};
 
-pub(super) const SYNTAX: Syntax = Syntax { reserved, ..hlsl::SYNTAX };
+pub(super) const LANGUAGE: Entry = Entry {
+    name: "slang",
+    aliases: &[],
+    extension: "slang",
+    form: Form::Function(&SYNTAX),
+    half: Some(&HALF),
+};
+
+pub(super) const SYNTAX: Syntax = Syntax {
+    reserved,
+    readable: Readable { plain: Plain::Single, ..hlsl::SYNTAX.readable },
+    ..hlsl::SYNTAX
+};
 
 /// Half precision; all its targets that have halves take it as it is.
-pub(super) const HALF: Syntax = Syntax { reserved, ..hlsl::HALF };
+pub(super) const HALF: Syntax = Syntax { reserved, readable: SYNTAX.readable, ..hlsl::HALF };
 
 fn reserved(name: &str) -> bool {
     hlsl::reserved(name) || is_word(WORDS, name)

@@ -1,5 +1,6 @@
 //! The differences between languages, as data.
 
+use super::signature::Parameter;
 use crate::op::Op;
 use crate::program::format_constant;
 pub(super) use crate::program::spelling::{
@@ -11,10 +12,21 @@ use half::f16;
 pub(super) struct Syntax {
     /// The beginning of a comment that ends with its line.
     pub comment: &'static str,
+    /// True if a comment says what is a column of what, since the code does not.
+    pub states_head: bool,
     /// The types of a float and of vectors, as far as there are any.
     pub types: &'static [&'static str],
+    /// What makes a float and vectors of floats, where that is not their types.
+    pub constructors: &'static [&'static str],
+    pub conversion: Conversion,
+    /// Writes a parameter that a value comes by.
+    pub parameter: fn(of: &str, name: &str) -> String,
+    /// Writes a parameter that a result leaves by, if there are any.
+    pub out_parameter: Option<fn(of: &str, name: &str) -> String>,
+    /// True if several outputs leave by parameters unless asked otherwise.
+    pub outputs_by_parameters: bool,
     pub spelling: fn(Op) -> Spelling,
-    /// The notation of `{a}·{a}·…`, if there is one, with `{n}` factors.
+    /// The notation of `{a}·{a}·…`, if there is one, with `{#}` factors.
     pub power: Option<&'static str>,
     pub parentheses: [&'static str; 2],
     /// The signs of a sum and of a difference.
@@ -35,16 +47,62 @@ pub(super) struct Syntax {
     /// Declares a local that is infinite or NaN, and perhaps one for its bits.
     pub non_finite: fn(name: &str, bits_name: &str, bits: u32) -> Vec<String>,
     /// Adds the lines above the function's body.
-    pub open: fn(&Syntax, &Signature, &mut Vec<String>),
+    pub open: fn(&Syntax, &Head, &mut Vec<String>),
     /// Adds the lines that return the outputs and end the function.
-    pub close: fn(&Syntax, &Signature, &mut Vec<String>),
+    pub close: fn(&Syntax, &Head, &mut Vec<String>),
     /// The function that makes a float of its bits.
     pub float_of_bits: &'static str,
     pub readable: Readable,
 }
 
+impl Syntax {
+    /// Returns what makes a float, or a vector, of so many components.
+    pub fn constructor(&self, size: usize) -> &'static str {
+        self.constructors.get(size - 1).unwrap_or(&self.types[size - 1])
+    }
+}
+
+/// The grammar of heads and statements.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Style {
+    /// `float f(float x) { float t = x; return t; }`
+    C,
+    /// `fn f(x: f32) -> f32 { let t = x; return t; }`
+    Wgsl,
+    /// `pub fn f(x: f32) -> f32 { let t = x; t }`
+    Rust,
+    /// `export function f(x) { const t = x; return t; }`
+    Script,
+    /// `export const f = Fn(([x]) => { const t = x; return t; });`
+    Nodes,
+    /// `def f(x):`, a statement a line
+    Python,
+}
+
+/// What a number without a suffix is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Plain {
+    /// It takes the type of what it meets.
+    Open,
+    Single,
+    /// It makes a double of what it meets, and is refused.
+    Double,
+    /// A float even without a point.
+    Number,
+}
+
 /// What a function that is read back may contain although none is emitted with it.
 pub(super) struct Readable {
+    pub style: Style,
+    pub plain: Plain,
+    /// The endings of numbers, the longest first, each with whether it makes a half.
+    pub suffixes: &'static [(&'static str, bool)],
+    /// What a comment to the end of its line begins with, and one that ends by itself.
+    pub comments: [&'static str; 2],
+    /// Whole lines that mean nothing for the values, or the beginnings of such if they end in `*`.
+    pub lines: &'static [&'static str],
+    /// What functions' names begin with: `std::`.
+    pub namespaces: &'static [&'static str],
     /// Words before the type of a local that do not change its value.
     pub of_locals: &'static [&'static str],
     pub of_functions: &'static [&'static str],
@@ -55,14 +113,50 @@ pub(super) struct Readable {
     pub integer_sign: bool,
 }
 
-/// The names in a function, as the language allows them.
-pub(super) struct Signature {
+/// A function's head, and the names in its body, as the language allows them.
+pub(super) struct Head {
     pub function: String,
+    pub parameters: Vec<Parameter>,
+    /// What the body writes for each input.
     pub inputs: Vec<String>,
+    /// The names of the outputs: locals, or parameters of one component.
     pub outputs: Vec<String>,
+    /// The number of outputs that are returned; the others leave by parameters.
+    pub returned: usize,
     /// The type and the local that hold more outputs than a vector can.
     pub structure: String,
     pub result: String,
+    /// True if no more than arithmetic, comparisons, minima and maxima are computed.
+    pub arithmetic: bool,
+}
+
+impl Head {
+    /// Returns true if the output is a parameter by itself, which its value is assigned to.
+    pub fn is_parameter(&self, output: usize) -> bool {
+        self.out_places()
+            .iter()
+            .any(|(parameter, outputs)| parameter.size == 1 && outputs.contains(&output))
+    }
+
+    /// Returns the parameters that results leave by, each with the outputs that it holds.
+    pub fn out_places(&self) -> Vec<(&Parameter, std::ops::Range<usize>)> {
+        let mut from = self.returned;
+        let out = self.parameters.iter().filter(|parameter| parameter.out);
+        out.map(|parameter| {
+            from += parameter.size;
+            (parameter, from - parameter.size..from)
+        })
+        .collect()
+    }
+}
+
+/// How a value becomes one of the other precision.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Conversion {
+    /// By the type's name: `half(x)`.
+    Cast,
+    /// By a local: precision is a qualifier.
+    Local,
 }
 
 /// Returns the shortest decimal that reads back as `value` and that no compiler takes for an
@@ -111,7 +205,8 @@ mod tests {
     #[test]
     fn every_spelling_writes_each_argument() {
         let pages = [("javascript", &javascript::SYNTAX), ("mathml", &mathml::SYNTAX)];
-        let languages = Language::ALL.iter().map(|known| (known.name(), known.syntax()));
+        let languages =
+            Language::ALL.iter().filter_map(|known| Some((known.name(), known.syntax()?)));
         for (language, syntax) in languages.chain(pages) {
             for &op in Op::ALL {
                 let template = (syntax.spelling)(op).template;

@@ -1,11 +1,21 @@
 //! WGSL.
 
 use super::c_family;
-use super::syntax::{Signature, Spelling, Syntax, atom, half_decimal, is_word};
+use super::language::{Entry, Form};
+use super::syntax::{Head, Plain, Readable, Spelling, Style, Syntax, atom, half_decimal, is_word};
 use crate::op::Op;
+
+pub(super) const LANGUAGE: Entry = Entry {
+    name: "wgsl",
+    aliases: &["webgpu", "wgpu"],
+    extension: "wgsl",
+    form: Form::Function(&SYNTAX),
+    half: Some(&HALF),
+};
 
 pub(super) const SYNTAX: Syntax = Syntax {
     types: &["f32", "vec2<f32>", "vec3<f32>", "vec4<f32>"],
+    parameter: |of, name| format!("{name}: {of}"),
     spelling,
     reserved,
     local: |_, name, value| format!("let {name} = {value};"),
@@ -19,6 +29,12 @@ pub(super) const SYNTAX: Syntax = Syntax {
     open,
     close,
     float_of_bits: "bitcast",
+    readable: Readable {
+        style: Style::Wgsl,
+        plain: Plain::Open,
+        suffixes: &[("f", false), ("h", true)],
+        ..c_family::SYNTAX.readable
+    },
     ..c_family::SYNTAX
 };
 
@@ -33,9 +49,9 @@ pub(super) const HALF: Syntax = Syntax {
             format!("let {name} = f16(bitcast<f32>({bits_name}));"),
         ]
     },
-    open: |syntax, signature, lines| {
+    open: |syntax, head, lines| {
         lines.extend(["enable f16;".to_owned(), String::new()]);
-        open(syntax, signature, lines);
+        open(syntax, head, lines);
     },
     ..SYNTAX
 };
@@ -49,27 +65,23 @@ fn spelling(op: Op) -> Spelling {
     }
 }
 
-fn open(syntax: &Syntax, signature: &Signature, lines: &mut Vec<String>) {
-    let Signature { function, inputs, outputs, structure, .. } = signature;
-    let float = syntax.types[0];
-    let inputs: Vec<String> = inputs.iter().map(|name| format!("{name}: {float}")).collect();
-    let returned = syntax.types.get(outputs.len() - 1).copied().unwrap_or(structure);
-    if returned == structure {
-        lines.push(format!("struct {structure} {{"));
-        lines.extend(outputs.iter().map(|name| format!("    {name}: {float},")));
+fn open(syntax: &Syntax, head: &Head, lines: &mut Vec<String>) {
+    let returned = c_family::returned_type(syntax, head);
+    if returned == head.structure {
+        lines.push(format!("struct {returned} {{"));
+        let member = |name| format!("    {name}: {},", syntax.types[0]);
+        lines.extend(head.outputs.iter().map(member));
         lines.push("}".to_owned());
     }
-    lines.push(format!("fn {function}({}) -> {returned} {{", inputs.join(", ")));
+    let parameters = head.parameters.iter();
+    let parameters = parameters.map(|p| (syntax.parameter)(syntax.types[p.size - 1], &p.name));
+    let parameters = parameters.collect::<Vec<_>>().join(", ");
+    lines.push(format!("fn {}({parameters}) -> {returned} {{", head.function));
 }
 
-fn close(syntax: &Syntax, signature: &Signature, lines: &mut Vec<String>) {
-    let Signature { outputs, structure, .. } = signature;
-    let values = outputs.join(", ");
-    lines.push(match syntax.types.get(outputs.len() - 1) {
-        Some(_) if outputs.len() == 1 => format!("    return {values};"),
-        Some(vector) => format!("    return {vector}({values});"),
-        None => format!("    return {structure}({values});"),
-    });
+fn close(syntax: &Syntax, head: &Head, lines: &mut Vec<String>) {
+    let of_structure = || format!("    return {}({});", head.structure, head.outputs.join(", "));
+    lines.push(c_family::returned_value(syntax, head).unwrap_or_else(of_structure));
     lines.push("}".to_owned());
 }
 

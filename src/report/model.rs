@@ -40,7 +40,7 @@ pub(super) fn page(report: &Report) -> Result<Page, Error> {
         samples: dataset.as_ref().map(|data| SampleTable::of(&data.search, data.inputs.len())),
         trace: trace.clone(),
         spheres: dataset.as_deref().and_then(PageSpheres::of),
-        languages: Language::ALL.iter().map(|language| language.name()).collect(),
+        languages: Language::OF_RUNS.iter().map(|language| language.name()).collect(),
     })
 }
 
@@ -116,17 +116,17 @@ impl Priced<'_> {
     /// Returns the code in each language, without the header.
     fn code(&self, program: &Program) -> Vec<Code> {
         let names = self.run.names();
-        let snippet = Snippet { program, names: &names, function: &self.run.name, header: &[] };
+        let snippet = Snippet::new(program, &names, &self.run.name);
         let code = |&language: &Language| Code {
             comment: language.comment(),
             body: emit::emit(language, &snippet),
         };
-        Language::ALL.iter().map(code).collect()
+        Language::OF_RUNS.iter().map(code).collect()
     }
 
     fn formula(&self, member: &FrontMember) -> Formula {
         let (names, program) = (self.run.names(), &member.program);
-        let snippet = Snippet { program, names: &names, function: &self.run.name, header: &[] };
+        let snippet = Snippet::new(program, &names, &self.run.name);
         let costs: Vec<_> = self.profiles.iter().map(|profile| profile.cost(program)).collect();
         let measured = self.timings.iter().map(|timing| timing.of(&member.formula));
         let of = self.run.goal.measure;

@@ -127,7 +127,7 @@ pub fn front_files(run: &Run, front: &Front, minimax: &Front) -> Vec<(String, Ve
         (MINIMAX_FRONT.to_owned(), minimax.to_json(&names)),
     ];
     for (i, member) in front.members.iter().enumerate() {
-        files.extend(Language::ALL.iter().map(|&language| {
+        files.extend(Language::OF_RUNS.iter().map(|&language| {
             let file = format!("{SNIPPETS}/{:02}.{}", i + 1, language.extension());
             (file, snippet(run, member, language))
         }));
@@ -276,7 +276,7 @@ fn snippets_in(folder: &Path) -> Vec<String> {
         let (stem, extension) = (part(path.file_stem()), part(path.extension()));
         stem.len() >= 2
             && stem.bytes().all(|byte| byte.is_ascii_digit())
-            && Language::ALL.iter().any(|language| language.extension() == extension)
+            && Language::OF_RUNS.iter().any(|language| language.extension() == extension)
     };
     let folder = folder.join(SNIPPETS);
     if folder.is_symlink() {

@@ -17,10 +17,7 @@ use std::collections::BTreeSet;
 /// Returns a member as a function ready to paste.
 pub fn snippet(run: &Run, member: &FrontMember, language: Language) -> String {
     let (names, header) = (run.names(), header(run, member));
-    emit::emit(
-        language,
-        &Snippet { program: &member.program, names: &names, function: &run.name, header: &header },
-    )
+    emit::emit(language, &Snippet::new(&member.program, &names, &run.name).header(&header))
 }
 
 /// Returns a member in half precision except for some instructions, if the language has halves.
@@ -43,8 +40,7 @@ pub fn half_snippet(
         }
     });
     header.push(format!("which adds an error of {}", at_most(&number_text(error), tried)));
-    let snippet =
-        Snippet { program: &member.program, names: &names, function: &run.name, header: &header };
+    let snippet = Snippet::new(&member.program, &names, &run.name).header(&header);
     emit::emit_half(language, &snippet, stay_single)
 }
 

@@ -60,13 +60,13 @@ fn page(text: &str) -> Page {
         samples: Some(SampleTable::of(&split, 2)),
         trace: None,
         spheres: None,
-        languages: Language::ALL.iter().map(|language| language.name()).collect(),
+        languages: Language::OF_RUNS.iter().map(|language| language.name()).collect(),
     }
 }
 
 fn formula(program: &Program, names: &Names, text: &str, name: Option<&str>) -> Formula {
     let header = [text.to_owned()];
-    let snippet = Snippet { program, names, function: text, header: &header };
+    let snippet = Snippet::new(program, names, text).header(&header);
     let code = |&language: &Language| Code {
         comment: language.comment(),
         body: emit::emit(language, &snippet),
@@ -84,7 +84,7 @@ fn formula(program: &Program, names: &Names, text: &str, name: Option<&str>) -> 
         formula: text.to_owned(),
         template: vec![text.to_owned()],
         header: header.to_vec(),
-        code: Language::ALL.iter().map(code).collect(),
+        code: Language::OF_RUNS.iter().map(code).collect(),
         mathml: emit::mathml(&snippet),
         script: emit::javascript(program),
     }

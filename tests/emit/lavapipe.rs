@@ -162,7 +162,7 @@ fn function(language: Language, precision: Precision, case: &Case) -> String {
     match precision {
         Single => text(language, program, names, function, &[]),
         InHalf => {
-            let snippet = Snippet { program, names, function, header: &[] };
+            let snippet = Snippet::new(program, names, function);
             emit_half(language, &snippet, stay_single).unwrap()
         }
     }

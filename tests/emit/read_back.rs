@@ -9,14 +9,55 @@ use lgp::op::{MAX_ARITY, Op};
 use lgp::program::{Arg, Draft, Names, Program, parse};
 use proptest::prelude::*;
 
+/// The languages that are read back.
+fn readable() -> impl Iterator<Item = Language> {
+    Language::ALL.iter().copied()
+}
+
+/// Those with a multiply-add of one rounding.
+fn has_multiply_add(language: Language) -> bool {
+    use Language::{C, Cuda, Hlsl, Msl, Rust, Slang, Wgsl};
+    [C, Cuda, Hlsl, Msl, Rust, Slang, Wgsl].contains(&language)
+}
+
+/// Those that write other numbers for infinities and NaNs.
+fn is_finite(language: Language) -> bool {
+    [Language::Osl, Language::MaterialX].contains(&language)
+}
+
+/// Whether some constant part of the program is not finite.
+fn has_non_finite_constants(program: &Program) -> bool {
+    let known = depends_on_no_input(program);
+    let mut results: Vec<f32> = Vec::new();
+    for (instr, known) in program.instrs.iter().zip(known) {
+        let mut args = [0.0; MAX_ARITY];
+        for (to, &arg) in args.iter_mut().zip(instr.args()) {
+            *to = match arg {
+                Arg::Input(_) => 0.0,
+                Arg::Const(i) => program.consts[usize::from(i)],
+                Arg::Result(i) => results[usize::from(i)],
+            };
+        }
+        // A multiply-add's product of numbers is one, too.
+        if instr.op() == Op::Mad && !(args[0] * args[1]).is_finite() {
+            return true;
+        }
+        results.push(if known { instr.op().apply(args) } else { 0.0 });
+    }
+    results.iter().any(|value| !value.is_finite())
+}
+
 #[test]
 fn nasty_names_are_read_back_as_they_were() {
     let (program, names) = nasty_columns();
     let inputs: Vec<f32> = (0..program.inputs).map(|i| (i as f32).sin()).collect();
-    for &language in Language::SHADING {
+    for language in readable() {
         let code = text(language, &program, &names, "dfg", &[]);
         let read = read_back(language, &code).unwrap();
         assert_eq!(read.names, names, "{code}");
+        if is_finite(language) {
+            continue;
+        }
         assert_eq!(bits(&read.evaluate(&inputs)), bits(&program.evaluate(&inputs)));
     }
 }
@@ -24,16 +65,22 @@ fn nasty_names_are_read_back_as_they_were() {
 #[test]
 fn every_operation_is_read_back_with_its_meaning() {
     let names = Names::new(["x", "y", "z", "w"], ["f"]);
-    for &language in Language::SHADING {
+    for language in readable() {
         for &op in Op::ALL {
             for program in programs_of(op) {
+                if is_finite(language) && has_non_finite_constants(&program) {
+                    continue;
+                }
                 let code = text(language, &program, &names, "f", &[]);
                 let read = read_back(language, &code).unwrap_or_else(|e| panic!("{code}{e}"));
                 for sample in SAMPLES {
                     let (expected, found) =
                         (program.evaluate(&sample)[0], read.evaluate(&sample)[0]);
                     let tolerance = match (language, op) {
-                        (Language::Glsl, Op::Mad) => 1e-6 * expected.abs().max(1.0),
+                        (Language::Latex, _) => 1e-6 * expected.abs(),
+                        (_, Op::Mad) if !has_multiply_add(language) => {
+                            1e-6 * expected.abs().max(1.0)
+                        }
                         _ => 0.0,
                     };
                     let same = bits(&[expected]) == bits(&[found]);
@@ -121,16 +168,27 @@ proptest! {
     #[test]
     fn what_is_emitted_reads_back_as_it_was(program in programs()) {
         let names = names(&program);
-        for &language in Language::SHADING {
+        for language in readable() {
             let code = text(language, &program, &names, "f", &[]);
             let read = read_back(language, &code);
             let read = read.map_err(|e| TestCaseError::fail(format!("{code}\n{e}")))?;
             prop_assert_eq!(&read.names, &names);
             prop_assert!(!read.in_half);
-            prop_assert!(code.lines().all(|line| line.len() <= 100), "{}", code);
-            let meant = match language {
-                Language::Glsl => with_separate_multiply_and_add(&program),
-                _ => program.clone(),
+            let long = |line: &str| {
+                let is_head = line.starts_with("import") || line.starts_with("void");
+                line.len() > 100 && !is_head
+            };
+            prop_assert!(language == Language::Latex || !code.lines().any(long), "{}", code);
+            // An equation does not say in what order it is computed.
+            if language == Language::Latex {
+                continue;
+            }
+            if is_finite(language) && has_non_finite_constants(&program) {
+                continue;
+            }
+            let meant = match has_multiply_add(language) {
+                false => with_separate_multiply_and_add(&program),
+                true => program.clone(),
             };
             for sample in SAMPLES {
                 let (found, expected) = (read.evaluate(&sample[..2]), meant.evaluate(&sample[..2]));
@@ -145,16 +203,19 @@ proptest! {
         let known = depends_on_no_input(&program);
         let stay_single: Vec<usize> =
             (0..program.instrs.len()).filter(|&i| single[i] == 0 && !known[i]).collect();
-        let snippet = Snippet { program: &program, names: &names, function: "f", header: &[] };
-        for &language in Language::SHADING {
+        let snippet = Snippet::new(&program, &names, "f");
+        for language in readable().filter(|language| language.has_halves()) {
             let code = emit_half(language, &snippet, &stay_single).unwrap();
             let read = read_back(language, &code);
             let read = read.map_err(|e| TestCaseError::fail(format!("{code}\n{e}")))?;
             prop_assert!(read.in_half);
             prop_assert_eq!(&read.names, &names);
+            // The program may be what spells another operation in this language.
+            let literal = read.literal.as_deref().cloned();
+            let read = if read.is(&program) { read } else { literal.unwrap_or(read) };
             prop_assert!(read.is(&program), "{}", code);
             let mads = program.instrs.iter().any(|instr| instr.op() == Op::Mad);
-            if mads && language == Language::Glsl {
+            if mads && !has_multiply_add(language) {
                 continue;
             }
             for sample in SAMPLES {
@@ -168,9 +229,9 @@ proptest! {
     #[test]
     fn no_two_signs_stand_side_by_side(program in programs()) {
         let names = names(&program);
-        let snippet = Snippet { program: &program, names: &names, function: "f", header: &[] };
+        let snippet = Snippet::new(&program, &names, "f");
         let halves = Language::ALL.iter().filter_map(|&l| emit_half(l, &snippet, &[]));
-        let singles = Language::ALL.iter().map(|&l| emit(l, &snippet));
+        let singles = Language::ALL.iter().map(|&l| emit(l, &snippet).replace("<!--", "").replace("-->", ""));
         for code in halves.chain(singles) {
             prop_assert!(![" + -", " - -", "--"].iter().any(|signs| code.contains(signs)), "{}", code);
         }
@@ -184,7 +245,7 @@ proptest! {
     ) {
         let names = Names::new(["x", "y"], ["a", "b", "c", "d"]);
         let program = parse(EVERY_OPERATION, &names).unwrap();
-        for &language in Language::SHADING {
+        for language in readable() {
             let mut code = text(language, &program, &names, "f", &[]);
             let start = start.min(code.len());
             let end = (start + length).min(code.len());
@@ -222,9 +283,9 @@ fn errors_say_where_and_what_is_wrong() {
         let message = error(body);
         assert!(message.contains(expected), "{}: {}", &body[..body.len().min(60)], message);
     }
-    for language in Language::SHADING {
+    for language in readable() {
         for text in ["", "struct", "struct x {", "f", "f(", "f()", "f(x) {", "fn f(x:", "return"] {
-            assert!(read_back(*language, text).is_err(), "{text}");
+            assert!(read_back(language, text).is_err(), "{text}");
         }
     }
 }
@@ -370,7 +431,10 @@ fn no_type_can_be_changed_unseen() {
                 let mut changed = code.clone();
                 changed.replace_range(at..at + float.len(), other);
                 let error = read_back(language, &changed).expect_err(&changed);
-                assert_eq!(error.line, code[..at].matches('\n').count() + 1, "{error}");
+                let line = code[..at].matches('\n').count() + 1;
+                // A vector may be a parameter; it is refused where it is read as a float.
+                let may_be = line == 1 && other.contains('2') && !other.contains("16");
+                assert!(error.line == line || may_be && error.line > line, "{error}");
                 tried += 1;
             }
         }

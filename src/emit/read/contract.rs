@@ -17,6 +17,14 @@ pub fn formula_line(formula: &str) -> String {
 
 /// Returns the comment line that says how a name is written.
 pub(in crate::emit) fn name_line(written: &str, name: &str) -> String {
+    // In ASCII, and such that the name can be read again.
+    let name: String = name
+        .chars()
+        .map(|c| match c {
+            c if c.is_ascii() => c.to_string(),
+            c => c.escape_unicode().to_string(),
+        })
+        .collect();
     format!("{NAME} {written} = {name}")
 }
 
@@ -77,14 +85,19 @@ impl Contract {
         if let Some(formula) = text.strip_prefix(FORMULA) {
             self.formulas.push((line, formula.trim().to_owned()));
         } else if let Some((written, column)) = renamed {
-            self.columns.insert(written.trim().to_owned(), column.to_owned());
+            self.columns.insert(written.trim().to_owned(), unescaped(column));
         } else {
             self.unmarked.push((line, text.to_owned()));
         }
     }
 
-    pub fn column(&self, written: &str) -> Option<&str> {
-        self.columns.get(written).map(String::as_str)
+    /// Restores the names of columns that are written differently.
+    pub fn restore(&self, names: &mut Names) {
+        for name in names.inputs.iter_mut().chain(&mut names.outputs) {
+            if let Some(column) = self.columns.get(name) {
+                name.clone_from(column);
+            }
+        }
     }
 
     /// Returns the marked formula; without marks, the comment that gives outputs their values.
@@ -113,6 +126,22 @@ impl Contract {
         }
         Ok(found)
     }
+}
+
+/// Reads `\u{b7}` as the character that it stands for.
+fn unescaped(text: &str) -> String {
+    let mut parts = text.split("\\u{");
+    let mut name = parts.next().unwrap_or_default().to_owned();
+    for part in parts {
+        let character = part.split_once('}').and_then(|(digits, rest)| {
+            Some((u32::from_str_radix(digits, 16).ok().and_then(char::from_u32)?, rest))
+        });
+        match character {
+            Some((character, rest)) => name.extend([&character.to_string(), rest]),
+            None => name.extend(["\\u{", part]),
+        }
+    }
+    name
 }
 
 fn once(found: &mut Option<Stated>, stated: Stated) -> Result<(), StatedError> {

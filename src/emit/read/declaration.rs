@@ -2,8 +2,10 @@
 
 use super::lex::Token;
 use super::types::{Float, Type};
-use super::{Read, Reader, Structure, Value};
+use super::{Out, Read, Reader, Several, Structure, Value};
 use crate::emit::Language;
+use crate::emit::signature::COMPONENTS;
+use crate::emit::syntax::Style;
 use crate::program::{Arg, Names};
 
 impl Reader<'_> {
@@ -15,31 +17,97 @@ impl Reader<'_> {
             self.expect(';', "after `enable f16`")?;
         }
         self.structure()?;
-        let inputs = match self.language {
-            Language::Wgsl => self.wgsl_head()?,
-            _ => self.c_head()?,
-        };
+        let inputs = self.head()?;
         self.draft.inputs = inputs.len();
-        self.expect('{', "and the body of the function")?;
-        loop {
-            if let Some(outputs) = self.statement()? {
-                self.expect('}', "after `return`, to end the function")?;
-                if self.peek().is_some() {
-                    return self.error(self.offset(), "expected no more than one function");
-                }
-                return Ok(Names { inputs, outputs });
+        let outputs = self.body()?;
+        self.end()?;
+        Ok(Names { inputs, outputs })
+    }
+
+    fn head(&mut self) -> Read<Vec<String>> {
+        match self.syntax.readable.style {
+            Style::C => self.c_head(),
+            Style::Wgsl | Style::Rust => self.fn_head(),
+            Style::Script => self.word_head("function"),
+            Style::Python => self.word_head("def"),
+            Style::Nodes => self.nodes_head(),
+        }
+    }
+
+    /// Reads statements up to the one that returns, and assigns what leaves by parameters.
+    fn body(&mut self) -> Read<Vec<String>> {
+        let mut outputs = None;
+        while outputs.is_none() && !self.ends_without_returning() {
+            outputs = self.statement()?;
+        }
+        let mut outputs = outputs.unwrap_or_default();
+        for out in std::mem::take(&mut self.outs) {
+            let Some(components) = out.value else {
+                let message = format!("the function ends, but `{}` has no value", out.name);
+                return self.error(self.offset(), message);
+            };
+            let many = components.len() > 1;
+            for (i, (name, value)) in components.into_iter().enumerate() {
+                self.draft.outputs.push(value.arg);
+                outputs.push(match name.filter(|_| many) {
+                    Some(name) => name,
+                    None if many => format!("{}.{}", out.name, COMPONENTS[i]),
+                    None => out.name.clone(),
+                });
             }
         }
+        Ok(outputs)
+    }
+
+    /// A function that returns nothing ends with its last statement.
+    fn ends_without_returning(&self) -> bool {
+        self.returned == Some(0) && self.is_symbol(0, '}')
+    }
+
+    fn end(&mut self) -> Read<()> {
+        match self.syntax.readable.style {
+            Style::Python => {}
+            Style::Nodes => {
+                self.expect('}', "after `return`, to end the function")?;
+                if self.closes_a_call {
+                    self.expect(')', "to end `Fn(`")?;
+                }
+                self.take_symbol(';');
+            }
+            _ => {
+                self.expect('}', "after `return`, to end the function")?;
+                // What ends a shader in OSL may be followed by a semicolon.
+                if self.language == Language::Osl {
+                    self.take_symbol(';');
+                }
+            }
+        }
+        if self.peek().is_some() && self.variant().is_none() {
+            return self.error(self.offset(), "expected no more than one function");
+        }
+        Ok(())
+    }
+
+    /// Returns the offset of a function of the same name in the other precision: `f_half` behind
+    /// `f_float`.
+    pub(super) fn variant(&self) -> Option<usize> {
+        let name = self.function.strip_suffix("_float")?;
+        let follows = self.tokens.get(self.next + 1);
+        let is_variant =
+            matches!(follows, Some((_, Token::Name(other))) if *other == format!("{name}_half"));
+        (self.language == Language::Hlsl && is_variant).then(|| self.offset())
     }
 
     /// Reads the structure that the function may return.
     fn structure(&mut self) -> Read<()> {
+        let typedef = self.language == Language::C && self.take_word("typedef");
         if !self.take_word("struct") {
             return Ok(());
         }
-        let Some(name) = self.take_name() else {
+        let first = self.take_name();
+        if first.is_none() && !typedef {
             return self.error(self.offset(), "expected the name of a structure");
-        };
+        }
         self.expect('{', "and the members of the structure")?;
         let (mut members, mut types) = (0, Vec::new());
         while !self.take_symbol('}') {
@@ -56,6 +124,10 @@ impl Reader<'_> {
                 _ => self.expect(';', "after a member")?,
             }
         }
+        let name = if typedef { self.take_name() } else { first };
+        let Some(name) = name else {
+            return self.error(self.offset(), "expected the name of a structure");
+        };
         if self.language != Language::Wgsl {
             self.expect(';', "after the structure")?;
         }
@@ -64,8 +136,9 @@ impl Reader<'_> {
         Ok(())
     }
 
-    /// Reads `fn f(x: f32) -> f32`.
-    fn wgsl_head(&mut self) -> Read<Vec<String>> {
+    /// Reads `fn f(x: f32) -> f32 {`.
+    fn fn_head(&mut self) -> Read<Vec<String>> {
+        self.qualifiers(self.syntax.readable.of_functions);
         if !self.take_word("fn") {
             return self.error(self.offset(), "expected a function, `fn f(x: f32) -> f32`");
         }
@@ -73,23 +146,116 @@ impl Reader<'_> {
         let inputs = self.parameters()?;
         self.expect('-', "and `>`, before the type that the function returns")?;
         self.expect('>', "before the type that the function returns")?;
-        self.returned_type()?;
-        self.same_types(&inputs)?;
+        match self.language == Language::Rust && self.take_symbol('(') {
+            true => self.tuple_type()?,
+            false => self.returned_type()?,
+        }
+        self.same_types()?;
+        self.expect('{', "and the body of the function")?;
         Ok(inputs)
     }
 
-    /// Reads `float f(float x)`.
+    /// Reads `f32, f32)`.
+    fn tuple_type(&mut self) -> Read<()> {
+        let mut size = 0;
+        while !self.take_symbol(')') {
+            let at = self.offset();
+            let name = self.type_name()?;
+            if self.known_type(&name) != Some((Type::Single, 1)) {
+                return self.unknown_type(&name, at, "what a function returns");
+            }
+            size += 1;
+            if !self.is_symbol(0, ')') {
+                self.expect(',', "or `)` after a type")?;
+            }
+        }
+        (self.of, self.returned) = (Type::Single, Some(size));
+        Ok(())
+    }
+
+    /// Reads `float f(float x) {`.
     fn c_head(&mut self) -> Read<Vec<String>> {
         self.qualifiers(self.syntax.readable.of_functions);
         if self.peek().is_none() {
             return self.error(self.offset(), "expected a function");
         }
-        self.returned_type()?;
+        let nothing = self.syntax.out_parameter.is_some() && self.take_word("void");
+        let is_shader = self.language == Language::Osl && self.take_word("shader");
+        match nothing || is_shader {
+            true => self.returned = Some(0),
+            false => self.returned_type()?,
+        }
         self.function_name()?;
         let inputs = self.parameters()?;
         self.semantic()?;
-        self.same_types(&inputs)?;
+        if let (Some(0), Some(first)) = (self.returned, self.outs.first()) {
+            self.of = first.of;
+        }
+        self.same_types()?;
+        self.expect('{', "and the body of the function")?;
         Ok(inputs)
+    }
+
+    /// Reads `export function f(x) {` or `def f(x):`.
+    fn word_head(&mut self, word: &str) -> Read<Vec<String>> {
+        self.qualifiers(self.syntax.readable.of_functions);
+        if !self.take_word(word) {
+            return self.error(self.offset(), format!("expected a function, `{word} f(x)`"));
+        }
+        self.function_name()?;
+        let inputs = self.names_of_parameters(')')?;
+        match word {
+            "def" => self.expect(':', "and the body of the function")?,
+            _ => self.expect('{', "and the body of the function")?,
+        }
+        Ok(inputs)
+    }
+
+    /// Reads `export const f = Fn(([x]) => {`, or `export const f = (x) => {`.
+    fn nodes_head(&mut self) -> Read<Vec<String>> {
+        self.qualifiers(self.syntax.readable.of_functions);
+        let at = self.offset();
+        let name = if self.take_word("const") { self.take_name() } else { None };
+        let Some(name) = name else {
+            return self.error(at, "expected a function, `export const f = Fn(([x]) => {`");
+        };
+        self.allowed(&name, at)?;
+        self.function = name;
+        self.expect('=', "and the function")?;
+        self.closes_a_call = self.take_word("Fn");
+        if self.closes_a_call {
+            self.expect('(', "after `Fn`")?;
+        }
+        self.expect('(', "and the parameters of a function")?;
+        let inputs = match self.closes_a_call {
+            true => {
+                self.expect('[', "and the parameters of a function")?;
+                let inputs = self.names_of_parameters(']')?;
+                self.expect(')', "after the parameters")?;
+                inputs
+            }
+            false => self.names_of_parameters(')')?,
+        };
+        self.expect('=', "and `>`, before the body of the function")?;
+        self.expect('>', "before the body of the function")?;
+        self.expect('{', "and the body of the function")?;
+        Ok(inputs)
+    }
+
+    /// Reads names without types.
+    fn names_of_parameters(&mut self, close: char) -> Read<Vec<String>> {
+        let mut names = Vec::new();
+        while !self.take_symbol(close) {
+            let at = self.offset();
+            let Some(name) = self.take_name() else {
+                return self.error(at, "expected a parameter");
+            };
+            self.parameter(&name, 1, Type::Single, &mut names, at)?;
+            if !self.is_symbol(0, close) {
+                self.expect(',', &format!("or `{close}` after a parameter"))?;
+            }
+        }
+        Ok(names)
     }
 
     fn function_name(&mut self) -> Read<()> {
@@ -106,11 +272,12 @@ impl Reader<'_> {
     fn returned_type(&mut self) -> Read<()> {
         let at = self.offset();
         let name = self.type_name()?;
-        (self.of, self.returned) = match (&self.structure, self.known_type(&name)) {
+        let (of, returned) = match (&self.structure, self.known_type(&name)) {
             (Some(structure), None) if structure.name == name => (structure.of, structure.members),
             (_, Some(known)) => known,
             _ => return self.unknown_type(&name, at, "what a function returns"),
         };
+        (self.of, self.returned) = (of, Some(returned));
         Ok(())
     }
 
@@ -119,19 +286,75 @@ impl Reader<'_> {
         while !self.take_symbol(')') {
             let at = self.offset();
             self.qualifiers(self.syntax.readable.of_parameters);
-            let (name, of) = self.typed_name("a parameter")?;
-            if names.len() >= usize::from(u16::MAX) {
-                return self.error(at, "a function has no more than 65535 parameters");
+            let prefix = self.out_prefix();
+            let marked = prefix.is_some_and(|word| self.take_word(word));
+            let (name, written, reference) = self.typed("a parameter")?;
+            let Some((of, size)) = self.known_type(&written) else {
+                return self.unknown_type(&written, at, "a parameter");
+            };
+            let is_out = if prefix.is_some() { marked } else { reference };
+            if is_out {
+                self.allowed(&name, at)?;
+                self.outs.push(Out { name, of, size, value: None });
+            } else {
+                self.parameter(&name, size, of, &mut names, at)?;
             }
-            let float = Float { arg: Arg::Input(names.len() as u16), of, exact: None };
-            self.define(&name, Value::Float(float), at)?;
-            names.push(name);
             self.semantic()?;
+            self.default_value()?;
             if !self.is_symbol(0, ')') {
                 self.expect(',', "or `)` after a parameter")?;
             }
         }
         Ok(names)
+    }
+
+    /// Returns the word before a parameter that results leave by, if the language has one.
+    fn out_prefix(&self) -> Option<&'static str> {
+        let written = self.syntax.out_parameter?("T", "n");
+        ["out", "output", "thread"]
+            .into_iter()
+            .find(|word| written.starts_with(&format!("{word} ")))
+    }
+
+    /// Reads the value of a shader's parameter that nothing is connected to.
+    fn default_value(&mut self) -> Read<()> {
+        if self.language != Language::Osl || !self.take_symbol('=') {
+            return Ok(());
+        }
+        self.take_symbol('-');
+        match self.peek() {
+            Some(Token::Number(_)) => {
+                self.next += 1;
+                Ok(())
+            }
+            _ => self.error(self.offset(), "expected a number"),
+        }
+    }
+
+    /// Defines a parameter, whose components are the next inputs.
+    fn parameter(
+        &mut self,
+        name: &str,
+        size: usize,
+        of: Type,
+        names: &mut Vec<String>,
+        at: usize,
+    ) -> Read<()> {
+        if names.len() + size > usize::from(u16::MAX) {
+            return self.error(at, "a function has no more than 65535 parameters");
+        }
+        let float = |i: usize| Float { arg: Arg::Input(i as u16), of, exact: None };
+        if size == 1 {
+            self.define(name, Value::Float(float(names.len())), at)?;
+            names.push(name.to_owned());
+            return Ok(());
+        }
+        let components: Vec<_> = (0..size).map(|i| (None, float(names.len() + i))).collect();
+        let types = if of == Type::Half { self.half } else { Some(self.syntax) };
+        let of = types.map_or("", |syntax| syntax.types[size - 1]).to_owned();
+        self.define(name, Value::Several(Several { of, components }), at)?;
+        names.extend(COMPONENTS[..size].iter().map(|component| format!("{name}.{component}")));
+        Ok(())
     }
 
     /// Reads where a value comes from or goes to: `: TEXCOORD0`.
@@ -143,12 +366,16 @@ impl Reader<'_> {
         Ok(())
     }
 
-    fn same_types(&self, inputs: &[String]) -> Read<()> {
-        let differs = |name: &&String| match self.values.get(*name) {
-            Some(Value::Float(float)) => float.of != self.of,
+    fn same_types(&self) -> Read<()> {
+        let differs = |value: &Value| match value {
+            Value::Float(float) => float.of != self.of,
+            Value::Several(several) => several.components[0].1.of != self.of,
             _ => false,
         };
-        match inputs.iter().find(differs) {
+        let values = self.values.iter().filter(|(_, value)| differs(value));
+        let outs = self.outs.iter().filter(|out| out.of != self.of);
+        let names = values.map(|(name, _)| name).chain(outs.map(|out| &out.name));
+        match names.min() {
             None => Ok(()),
             Some(name) => self.error(
                 self.offset(),
@@ -165,34 +392,46 @@ impl Reader<'_> {
         found
     }
 
-    /// Reads `x: f32` in WGSL, `float x` elsewhere.
+    /// Reads the name and the type of a float.
     fn typed_name(&mut self, what: &str) -> Read<(String, Type)> {
-        let mut at = self.offset();
-        let expected = |reader: &Self| reader.error(reader.offset(), format!("expected {what}"));
-        let (name, written) = if self.language == Language::Wgsl {
-            let Some(name) = self.take_name() else { return expected(self) };
-            self.expect(':', &format!("and the type of {what}"))?;
-            at = self.offset();
-            (name, self.type_name()?)
-        } else {
-            if !matches!(self.peek(), Some(Token::Name(_))) {
-                return expected(self);
-            }
-            let written = self.type_name()?;
-            let Some(name) = self.take_name() else { return expected(self) };
-            (name, written)
-        };
+        let at = self.offset();
+        let (name, written, _) = self.typed(what)?;
         match self.known_type(&written) {
             Some((of, 1)) => Ok((name, of)),
             _ => self.unknown_type(&written, at, what),
         }
     }
 
-    /// Reads `float`, or `vec2<f32>`.
+    /// Reads `x: f32` or `float x`: the name, the type, and whether it is a reference.
+    fn typed(&mut self, what: &str) -> Read<(String, String, bool)> {
+        let expected = |reader: &Self| reader.error(reader.offset(), format!("expected {what}"));
+        if matches!(self.syntax.readable.style, Style::Wgsl | Style::Rust) {
+            let Some(name) = self.take_name() else { return expected(self) };
+            self.expect(':', &format!("and the type of {what}"))?;
+            return Ok((name, self.type_name()?, false));
+        }
+        if !matches!(self.peek(), Some(Token::Name(_))) {
+            return expected(self);
+        }
+        let written = self.type_name()?;
+        let references = self.syntax.out_parameter.is_some_and(|out| out("T", "n").contains('&'));
+        let reference = references && self.take_symbol('&');
+        let Some(name) = self.take_name() else { return expected(self) };
+        Ok((name, written, reference))
+    }
+
+    /// Reads `float`, `vec2<f32>`, or `mediump float`.
     pub(super) fn type_name(&mut self) -> Read<String> {
+        let at = self.offset();
         let Some(name) = self.take_name() else {
-            return self.error(self.offset(), "expected a type");
+            return self.error(at, "expected a type");
         };
+        if self.language == Language::GlslEs && ["highp", "mediump"].contains(&name.as_str()) {
+            let Some(of) = self.take_name() else {
+                return self.error(self.offset(), format!("expected a type after `{name}`"));
+            };
+            return Ok(format!("{name} {of}"));
+        }
         Ok(self.with_element(name))
     }
 
@@ -219,16 +458,29 @@ impl Reader<'_> {
             Language::Wgsl => {
                 [&["f32", "vec2f", "vec3f", "vec4f"], &["f16", "vec2h", "vec3h", "vec4h"]]
             }
+            // Without a qualifier it is highp, in vertex shaders by itself and else by a statement.
+            Language::GlslEs => [self.syntax.constructors, &[]],
             _ => [&[], &[]],
         };
         of(self.syntax.types, Type::Single)
-            .or_else(|| of(self.half.types, Type::Half))
+            .or_else(|| of(self.half?.types, Type::Half))
             .or_else(|| of(short[0], Type::Single))
             .or_else(|| of(short[1], Type::Half))
     }
 
+    /// Returns what a call of a type or of a constructor makes.
+    pub(super) fn made_by(&self, name: &str) -> Option<(Type, usize)> {
+        let of = |names: &[&str], of: Type| {
+            let size = names.iter().position(|known| *known == name)?;
+            Some((of, size + 1))
+        };
+        of(self.syntax.constructors, Type::Single)
+            .or_else(|| of(self.half?.constructors, Type::Half))
+            .or_else(|| self.known_type(name))
+    }
+
     pub(super) fn unknown_type<T>(&self, name: &str, at: usize, what: &str) -> Read<T> {
-        let float = self.syntax.types[0];
+        let float = self.syntax.types.first().copied().unwrap_or("float");
         let why = match name {
             "int" | "uint" | "i32" | "u32" | "short" | "long" | "bool" => {
                 ": it holds no fractions, so the code would compute something else"

@@ -2,7 +2,9 @@
 
 use super::ReadError;
 use crate::emit::Language;
+use crate::emit::syntax::{Plain, Readable, Style};
 use crate::program::plain;
+use std::collections::HashSet;
 
 #[derive(Clone, Debug, PartialEq)]
 pub(super) enum Token {
@@ -44,40 +46,69 @@ pub(super) struct Lexed<'a> {
     pub comments: Vec<Comment<'a>>,
 }
 
-pub(super) fn lex(language: Language, text: &str) -> Result<Lexed<'_>, ReadError> {
+pub(super) fn lex<'a>(
+    language: Language,
+    readable: &Readable,
+    text: &'a str,
+) -> Result<Lexed<'a>, ReadError> {
     refuse_other_line_ends(text)?;
     if language != Language::Wgsl {
         refuse_continued_lines(text)?;
     }
+    let [line_comment, block_comment] = readable.comments;
+    let is_python = readable.style == Style::Python;
     let mut lexed = Lexed { tokens: Vec::new(), comments: Vec::new() };
+    let mut defined: Vec<(usize, String)> = Vec::new();
+    let mut depth = 0usize;
     let mut at = 0;
     while let Some(c) = text[at..].chars().next() {
         let rest = &text[at..];
         let (token, length) = match c {
+            '\n' if is_python && depth == 0 && lexed.ends_a_statement() => {
+                (Some(Token::Symbol(';')), 1)
+            }
             ' ' | '\t' | '\n' | '\r' => (None, 1),
-            _ if rest.starts_with("//") => {
+            _ if rest.starts_with(line_comment) => {
                 let length = rest.find('\n').unwrap_or(rest.len());
-                lexed.comments.push(Comment { offset: at, text: rest[2..length].trim() });
+                let line = rest[line_comment.len()..length].trim();
+                lexed.comments.push(Comment { offset: at, text: line });
                 (None, length)
             }
-            _ if rest.starts_with("/*") => {
+            _ if rest.starts_with(block_comment) && !is_python => {
                 let length = block_length(language, rest)
                     .ok_or_else(|| ReadError::at(text, at, "a comment without an end"))?;
                 lexed.comments.extend(lines_of_block(at, &rest[..length]));
                 (None, length)
             }
+            _ if starts_a_line(text, at) && line_without_meaning(readable, rest).is_some() => {
+                (None, line_without_meaning(readable, rest).unwrap_or(0))
+            }
             _ if rest.starts_with("--") || rest.starts_with("++") => {
                 let message = format!("`{}` changes a value; put a space between", &rest[..2]);
                 return Err(ReadError::at(text, at, message));
             }
-            '#' => (None, directive(language, rest).map_err(|m| ReadError::at(text, at, m))?),
+            '#' => {
+                let (length, name) =
+                    directive(language, rest).map_err(|m| ReadError::at(text, at, m))?;
+                defined.extend(name.map(|name| (at, name)));
+                (None, length)
+            }
+            _ if namespace(readable, rest).is_some() => {
+                let before = namespace(readable, rest).unwrap_or("").len();
+                let length =
+                    before + count(&rest[before..], |b| b.is_ascii_alphanumeric() || b == b'_');
+                (Some(Token::Name(rest[..length].to_owned())), length)
+            }
             c if c.is_ascii_alphabetic() || c == '_' => {
                 let length = count(rest, |b| b.is_ascii_alphanumeric() || b == b'_');
                 (Some(Token::Name(rest[..length].to_owned())), length)
             }
+            '.' if rest[1..].starts_with(|c: char| c.is_ascii_alphabetic()) => {
+                (Some(Token::Symbol('.')), 1)
+            }
             '0'..='9' | '.' => {
                 let length = number_length(rest);
-                let token = number(language, &rest[..length])
+                let token = number(language, readable, &rest[..length])
                     .map_err(|message| ReadError::at(text, at, message))?;
                 (Some(token), length)
             }
@@ -87,10 +118,65 @@ pub(super) fn lex(language: Language, text: &str) -> Result<Lexed<'_>, ReadError
                 return Err(ReadError::at(text, at, format!("`{other}` has no meaning here")));
             }
         };
+        match token {
+            Some(Token::Symbol('(' | '[')) => depth += 1,
+            Some(Token::Symbol(')' | ']')) => depth = depth.saturating_sub(1),
+            _ => {}
+        }
         lexed.tokens.extend(token.map(|token| (at, token)));
         at += length;
     }
+    if is_python && lexed.ends_a_statement() {
+        lexed.tokens.push((text.len(), Token::Symbol(';')));
+    }
+    refuse_uses(text, &lexed, &defined)?;
     Ok(lexed)
+}
+
+impl Lexed<'_> {
+    /// Returns true after the last token of a statement.
+    fn ends_a_statement(&self) -> bool {
+        !matches!(self.tokens.last(), None | Some((_, Token::Symbol(';' | ':' | ','))))
+    }
+}
+
+fn starts_a_line(text: &str, at: usize) -> bool {
+    text[..at].rsplit('\n').next().is_some_and(|before| before.trim().is_empty())
+}
+
+/// Returns the length of a line that means nothing for the values, as an `#include` of functions.
+fn line_without_meaning(readable: &Readable, text: &str) -> Option<usize> {
+    let line = text.lines().next().unwrap_or("");
+    let known = |known: &&str| match known.strip_suffix('*') {
+        Some(beginning) => line.starts_with(beginning) && line.trim_end().ends_with("three/tsl';"),
+        None => line.split_whitespace().eq(known.split_whitespace()),
+    };
+    readable.lines.iter().any(known).then_some(line.len())
+}
+
+/// Returns the beginning of functions' names that the text starts with.
+fn namespace<'a>(readable: &Readable, text: &'a str) -> Option<&'a str> {
+    let known = readable.namespaces.iter().find(|namespace| text.starts_with(**namespace))?;
+    Some(&text[..known.len()])
+}
+
+/// Refuses code in which a word stands that the preprocessor takes away.
+fn refuse_uses(text: &str, lexed: &Lexed, defined: &[(usize, String)]) -> Result<(), ReadError> {
+    let names: HashSet<&str> = lexed
+        .tokens
+        .iter()
+        .filter_map(|(_, token)| match token {
+            Token::Name(name) => Some(name.as_str()),
+            _ => None,
+        })
+        .collect();
+    match defined.iter().find(|(_, name)| names.contains(name.as_str())) {
+        Some((at, name)) => {
+            let message = format!("`{name}` stands in the code, too, which would be taken away");
+            Err(ReadError::at(text, *at, message))
+        }
+        None => Ok(()),
+    }
 }
 
 /// Refuses line ends that not all compilers take for one: comments would end differently.
@@ -161,18 +247,26 @@ fn lines_of_block(offset: usize, block: &str) -> impl Iterator<Item = Comment<'_
     })
 }
 
-/// Returns the length of the only preprocessor line that is emitted.
-fn directive(language: Language, text: &str) -> Result<usize, String> {
+/// Returns the length of a line that keeps a file from being included twice, and the name that it
+/// defines.
+fn directive(language: Language, text: &str) -> Result<(usize, Option<String>), String> {
     let line = text.lines().next().unwrap_or("");
-    let words: Vec<&str> = line.split_whitespace().collect();
-    let halves = "GL_EXT_shader_explicit_arithmetic_types_float16";
-    let allowed = ["#extension", halves, ":", "require"];
-    if language == Language::Glsl && words == allowed {
-        return Ok(line.len());
+    let words: Vec<&str> =
+        line.split_once("//").map_or(line, |(code, _)| code).split_whitespace().collect();
+    let is_name = |name: &str| {
+        count(name, |b| b.is_ascii_alphanumeric() || b == b'_') == name.len()
+            && name.starts_with(|c: char| c.is_ascii_alphabetic() || c == '_')
+    };
+    match words.as_slice() {
+        ["#pragma", "once"] | ["#endif"] => Ok((line.len(), None)),
+        ["#ifndef" | "#define", name] if is_name(name) => {
+            Ok((line.len(), Some((*name).to_owned())))
+        }
+        ["#define_import_path", _] if language == Language::Wgsl => Ok((line.len(), None)),
+        _ => Err("a line of the preprocessor, which may change what any other means; \
+             verify what it leaves instead"
+            .to_owned()),
     }
-    Err("a line of the preprocessor, which may change what any other means; \
-         verify what it leaves instead"
-        .to_owned())
 }
 
 fn count(text: &str, belongs: fn(u8) -> bool) -> usize {
@@ -189,14 +283,20 @@ fn number_length(text: &str) -> usize {
     }
 }
 
-fn number(language: Language, text: &str) -> Result<Token, String> {
+fn number(language: Language, readable: &Readable, text: &str) -> Result<Token, String> {
     let wrong = || format!("`{text}` is no number");
     if let Some(digits) = text.strip_prefix("0x").or_else(|| text.strip_prefix("0X")) {
         let digits = digits.trim_end_matches(['u', 'U']);
         return u32::from_str_radix(digits, 16).map(Token::Bits).map_err(|_| wrong());
     }
-    let (digits, kind) = without_suffix(language, text);
+    let (digits, kind) = without_suffix(readable, text);
     let kind = match (kind, digits.bytes().all(|b| b.is_ascii_digit())) {
+        (NumberKind::Plain, _) if readable.plain == Plain::Double => {
+            return Err(format!(
+                "`{text}` is no float; write `{digits}f`, or `{digits}.0f` if it is whole"
+            ));
+        }
+        (NumberKind::Plain, true) if readable.plain == Plain::Number => NumberKind::Plain,
         (NumberKind::Plain, true) => NumberKind::Integer,
         (_, true) if language != Language::Wgsl => {
             return Err(format!("`{text}` is a suffix on an integer; write `{digits}.0`"));
@@ -225,23 +325,10 @@ fn number(language: Language, text: &str) -> Result<Token, String> {
 }
 
 /// Splits a number into its digits and the kind that its suffix says.
-fn without_suffix(language: Language, text: &str) -> (&str, NumberKind) {
-    let suffixes: &[(&str, NumberKind)] = match language {
-        Language::Wgsl => &[("f", NumberKind::Single), ("h", NumberKind::Half)],
-        Language::Glsl => &[
-            ("hf", NumberKind::Half),
-            ("HF", NumberKind::Half),
-            ("f", NumberKind::Single),
-            ("F", NumberKind::Single),
-        ],
-        _ => &[
-            ("f", NumberKind::Single),
-            ("F", NumberKind::Single),
-            ("h", NumberKind::Half),
-            ("H", NumberKind::Half),
-        ],
-    };
-    let found =
-        suffixes.iter().find_map(|(suffix, kind)| Some((text.strip_suffix(suffix)?, *kind)));
+fn without_suffix<'a>(readable: &Readable, text: &'a str) -> (&'a str, NumberKind) {
+    let found = readable.suffixes.iter().find_map(|(suffix, half)| {
+        let kind = if *half { NumberKind::Half } else { NumberKind::Single };
+        Some((text.strip_suffix(suffix)?, kind))
+    });
     found.unwrap_or((text, NumberKind::Plain))
 }

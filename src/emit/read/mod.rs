@@ -10,7 +10,10 @@ mod call;
 mod contract;
 mod declaration;
 mod expression;
+mod latex;
 mod lex;
+mod materialx;
+mod spelled;
 mod statement;
 mod types;
 
@@ -23,7 +26,7 @@ use crate::op::{MAX_ARITY, Op};
 use crate::program::{Arg, Draft, Names, Program, effective, place, pointed, use_counts};
 use contract::Contract;
 use half::f16;
-use lex::{Comment, Token, lex};
+use lex::{Comment, Lexed, Token, lex};
 use std::collections::HashMap;
 use types::{Float, Type};
 
@@ -71,6 +74,10 @@ pub struct ReadBack {
     pub precisions: Vec<Precision>,
     /// True for a function of halves: its arguments and outputs are halves.
     pub in_half: bool,
+    /// The same function in the other precision, where a file has both.
+    pub variant: Option<Box<ReadBack>>,
+    /// The function as it is written, where operations were found that it spells by several.
+    pub literal: Option<Box<ReadBack>>,
     contract: Contract,
 }
 
@@ -124,36 +131,62 @@ pub const MAX_SNIPPET: usize = 1 << 20;
 ///
 /// # Errors
 /// [`ReadError`] where the text is not understood, or could mean something else to a compiler.
-/// Languages outside [`Language::SHADING`] are not understood.
 pub fn read_back(language: Language, text: &str) -> Result<ReadBack, ReadError> {
     if text.len() > MAX_SNIPPET {
         let message = format!("{} bytes are more than a snippet has (at most 1 MiB)", text.len());
         return Err(ReadError::at(text, 0, message));
     }
-    let Some(half) = language.half_syntax() else {
-        let known = Language::names(Language::SHADING, "and");
-        let message = format!("{language} is not read back (but {known} are)");
-        return Err(ReadError::at(text, 0, message));
+    let literal = read_literal(language, text)?;
+    Ok(match literal.with_operations(language) {
+        Some(found) => ReadBack { literal: Some(Box::new(literal)), ..found },
+        None => literal,
+    })
+}
+
+/// Reads a function operation by operation.
+fn read_literal(language: Language, text: &str) -> Read<ReadBack> {
+    let syntax = match (language, language.syntax()) {
+        (Language::Latex, _) => return latex::read(text),
+        (_, Some(syntax)) => syntax,
+        (_, None) => return materialx::read(text),
     };
-    let lexed = lex(language, text)?;
+    let lexed = lex(language, &syntax.readable, text)?;
+    read_function(language, syntax, text, &lexed, 0)
+}
+
+/// Reads the function that begins with the token of this index, and its variant behind it.
+fn read_function(
+    language: Language,
+    syntax: &'static Syntax,
+    text: &str,
+    lexed: &Lexed,
+    first: usize,
+) -> Read<ReadBack> {
     let mut reader = Reader {
         language,
-        syntax: language.syntax(),
-        half,
+        syntax,
+        half: language.half_syntax(),
         text,
-        tokens: lexed.tokens,
-        next: 0,
+        tokens: &lexed.tokens,
+        next: first,
         depth: 0,
         draft: Draft::default(),
         precisions: Vec::new(),
         values: HashMap::new(),
         function: String::new(),
         of: Type::Single,
-        returned: 0,
+        local: Type::Single,
+        returned: None,
+        outs: Vec::new(),
+        closes_a_call: false,
         structure: None,
     };
     let names = reader.function()?;
-    reader.finished(names, &lexed.comments)
+    let variant = match reader.variant() {
+        Some(_) => Some(Box::new(read_function(language, syntax, text, lexed, reader.next)?)),
+        None => None,
+    };
+    Ok(ReadBack { variant, ..reader.finished(names, &lexed.comments)? })
 }
 
 /// The value of an expression.
@@ -161,8 +194,26 @@ pub fn read_back(language: Language, text: &str) -> Result<ReadBack, ReadError> 
 enum Value {
     Float(Float),
     Bits(u32),
-    Less(Arg, Arg),
+    Compared(Comparison),
     Several(Several),
+}
+
+/// A condition.
+#[derive(Clone, Copy)]
+enum Comparison {
+    /// The first is less than the second.
+    Less(Arg, Arg),
+    /// The first is not less than the second.
+    AtLeast(Arg, Arg),
+}
+
+/// A parameter that results leave by.
+struct Out {
+    name: String,
+    of: Type,
+    size: usize,
+    /// Its components once they are assigned, each with its local's name.
+    value: Option<Vec<(Option<String>, Float)>>,
 }
 
 /// A vector or a structure: its components, and the locals that they are, if they are.
@@ -183,9 +234,9 @@ struct Structure {
 struct Reader<'a> {
     language: Language,
     syntax: &'static Syntax,
-    half: &'static Syntax,
+    half: Option<&'static Syntax>,
     text: &'a str,
-    tokens: Vec<(usize, Token)>,
+    tokens: &'a [(usize, Token)],
     next: usize,
     depth: usize,
     draft: Draft,
@@ -195,8 +246,14 @@ struct Reader<'a> {
     function: String,
     /// The type of the function's parameters and outputs.
     of: Type,
-    /// The number of outputs it returns.
-    returned: usize,
+    /// The type of the local whose value is read.
+    local: Type,
+    /// The number of outputs it returns, if its head says so.
+    returned: Option<usize>,
+    /// The parameters that results leave by.
+    outs: Vec<Out>,
+    /// True if the function stands in a call of `Fn`.
+    closes_a_call: bool,
     structure: Option<Structure>,
 }
 
@@ -212,13 +269,11 @@ impl Reader<'_> {
         let kept = self.precisions.iter().zip(&counts).filter(|(_, count)| **count > 0);
         let precisions = kept.map(|(precision, _)| *precision).collect();
         let contract = Contract::of(text, comments);
-        for name in names.inputs.iter_mut().chain(&mut names.outputs) {
-            if let Some(column) = contract.column(name) {
-                *name = column.to_owned();
-            }
-        }
+        contract.restore(&mut names);
         let in_half = self.of == Type::Half;
-        Ok(ReadBack { program: effective(&program), names, precisions, in_half, contract })
+        let program = effective(&program);
+        let (variant, literal) = (None, None);
+        Ok(ReadBack { program, names, precisions, in_half, variant, literal, contract })
     }
 
     fn peek(&self) -> Option<&Token> {
@@ -268,7 +323,11 @@ impl Reader<'_> {
         if self.draft.instrs.len() >= usize::from(u16::MAX) {
             return self.error(self.offset(), "more than 65535 operations");
         }
-        self.precisions.push(if of == Type::Half { Precision::Half } else { Precision::Single });
+        // Numbers alone have no precision in GLSL ES: they have that of the local.
+        let open_half =
+            of == Type::Open && self.language == Language::GlslEs && self.local == Type::Half;
+        let is_half = of == Type::Half || open_half;
+        self.precisions.push(if is_half { Precision::Half } else { Precision::Single });
         Ok(self.draft.push(op, args))
     }
 

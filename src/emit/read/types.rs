@@ -2,6 +2,7 @@
 
 use super::{Precision, Read, Reader};
 use crate::emit::Language;
+use crate::emit::syntax::Plain;
 use crate::op::Op;
 use crate::program::Arg;
 use half::f16;
@@ -34,8 +35,8 @@ impl Float {
 impl Reader<'_> {
     /// Returns the type of a number without a suffix.
     pub(super) fn plain_type(&self) -> Type {
-        match self.language {
-            Language::Hlsl | Language::Wgsl => Type::Open,
+        match self.syntax.readable.plain {
+            Plain::Open => Type::Open,
             _ => Type::Single,
         }
     }
@@ -51,8 +52,11 @@ impl Reader<'_> {
             ),
             _ if a == b => Ok(a),
             (Integer, other) | (other, Integer) => match self.language {
-                Language::Glsl => refused(
+                Language::Glsl | Language::GlslEs => refused(
                     "an integer meets a float, which GLSL ES does not take; write `2.0` for `2`",
+                ),
+                Language::Rust => refused(
+                    "an integer meets a float, which Rust does not take; write `2.0` for `2`",
                 ),
                 Language::Hlsl if other == Open => Ok(Single),
                 _ => Ok(other),
@@ -72,7 +76,8 @@ impl Reader<'_> {
     /// Returns the type of a call's result from its arguments' types.
     pub(super) fn meeting_of_arguments(&self, args: &[Float], at: usize) -> Read<Type> {
         let integers = args.iter().filter(|arg| arg.of == Type::Integer).count();
-        let several = matches!(self.language, Language::Hlsl | Language::Wgsl);
+        let several =
+            self.syntax.readable.plain == Plain::Open && self.language != Language::GlslEs;
         if integers > 0 && (integers == args.len() || !several) {
             let name = self.language.name();
             return self.error(
@@ -98,7 +103,7 @@ impl Reader<'_> {
             Language::Glsl if narrows => {
                 self.error(at, "GLSL makes no half of a float by itself; convert it")
             }
-            Language::Glsl if value.of == Type::Integer => {
+            Language::Glsl | Language::GlslEs | Language::Rust if value.of == Type::Integer => {
                 self.error(at, "an integer where a float belongs; write `2.0` for `2`")
             }
             _ => self.cast(value, to),
@@ -151,6 +156,13 @@ impl Reader<'_> {
         Ok(Float { arg, of, exact })
     }
 
+    /// Returns true where arithmetic of numbers is defined as that of all other values: in the
+    /// languages of processors.
+    fn folds_as_it_computes(&self) -> bool {
+        use Language::{C, Cpp, Cuda, Js, Python, Rust};
+        [C, Cpp, Cuda, Js, Python, Rust].contains(&self.language)
+    }
+
     /// Refuses numbers that compilers fold differently: some in double precision, some in that of
     /// their type.
     fn folds_alike(&self, op: Op, args: [Float; 2], of: Type, exact: f64, at: usize) -> Read<()> {
@@ -167,7 +179,7 @@ impl Reader<'_> {
             return self
                 .error(at, "numbers that make no finite one, which is an error in some languages");
         }
-        if typed.to_bits() == folded.to_bits() {
+        if typed.to_bits() == folded.to_bits() || self.folds_as_it_computes() {
             return Ok(());
         }
         self.error(

@@ -104,7 +104,7 @@ impl Spheres {
     /// `sphere_light`.
     pub fn glsl(&self) -> [String; 2] {
         let function = |(program, names): &(Program, Names), function: &str| {
-            emit(Language::Glsl, &Snippet { program, names, function, header: &[] })
+            emit(Language::Glsl, &Snippet::new(program, names, function))
         };
         [function(&self.given, "sphere_given"), function(&self.light, "sphere_light")]
     }

@@ -1,0 +1,70 @@
+//! How a function is called: its name, what it takes, and how its results leave it.
+
+use crate::program::Names;
+
+/// A parameter: a float or a vector of two to four.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Parameter {
+    /// The name.
+    pub name: String,
+    /// The number of components.
+    pub size: usize,
+    /// True if results leave by it.
+    pub out: bool,
+}
+
+impl Parameter {
+    /// Returns the names of its components: `uv.x` and `uv.y` of a vector `uv`.
+    pub fn components(&self) -> Vec<String> {
+        match self.size {
+            1 => vec![self.name.clone()],
+            size => COMPONENTS[..size].iter().map(|c| format!("{}.{c}", self.name)).collect(),
+        }
+    }
+}
+
+/// The components of a vector.
+pub(super) const COMPONENTS: [&str; 4] = ["x", "y", "z", "w"];
+
+/// The head of a function. A program's inputs are the components of the parameters that values come
+/// by, in order; its outputs are first those that are returned, then the components of the
+/// parameters that results leave by.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Signature {
+    /// The function's name.
+    pub function: String,
+    /// The parameters.
+    pub parameters: Vec<Parameter>,
+    /// The number of outputs that are returned.
+    pub returned: usize,
+}
+
+impl Signature {
+    /// Returns the head of a function that takes a float for each input. Several outputs leave by
+    /// parameters if `by_parameters`; else all are returned.
+    pub(super) fn of(function: &str, names: &Names, by_parameters: bool) -> Signature {
+        let parameter = |out| move |name: &String| Parameter { name: name.clone(), size: 1, out };
+        let mut parameters: Vec<Parameter> = names.inputs.iter().map(parameter(false)).collect();
+        let by_parameters = by_parameters && names.outputs.len() > 1;
+        if by_parameters {
+            parameters.extend(names.outputs.iter().map(parameter(true)));
+        }
+        let returned = if by_parameters { 0 } else { names.outputs.len() };
+        Signature { function: function.to_owned(), parameters, returned }
+    }
+
+    /// Returns the names of the components that values come by.
+    pub fn inputs(&self) -> Vec<String> {
+        self.components(false)
+    }
+
+    /// Returns the names of the components that results leave by; what is returned has none.
+    pub fn out_components(&self) -> Vec<String> {
+        self.components(true)
+    }
+
+    fn components(&self, out: bool) -> Vec<String> {
+        let parameters = self.parameters.iter().filter(|parameter| parameter.out == out);
+        parameters.flat_map(Parameter::components).collect()
+    }
+}
