@@ -2,10 +2,10 @@
 
 use super::run_folder::{self, Which};
 use super::{Common, Failure, tiers};
-use crate::emit::Language;
-use crate::num::Interval;
-use crate::program::{Names, shortest};
-use crate::run::{self, Run};
+use crate::emit::{Engine, Language, Lets, read_head};
+use crate::file::replace_file;
+use crate::program::shortest;
+use crate::run::{Called, Form, Run, Target};
 use crate::search::{Front, FrontMember};
 use crate::stability::{Unheld, must_stay_single, unheld};
 use crate::wording::examination::expression;
@@ -22,6 +22,10 @@ use std::path::PathBuf;
 /// and MSL it is 1.
 ///
 /// For example: lgp emit runs/dfg --lang wgsl --max-cost 16
+///
+/// Or: lgp emit runs/dfg --for unity -o Dfg.hlsl
+///
+/// Or: lgp emit runs/dfg --lang glsl --signature "vec2 EnvDFG(float roughness, float nov)"
 #[derive(clap::Args)]
 pub struct Args {
     /// A run: a folder that `lgp search` wrote
@@ -29,8 +33,32 @@ pub struct Args {
     #[command(flatten)]
     which: Which,
     #[arg(long, value_name = "L", value_parser = Language::from_name,
-        help = Language::names(Language::ALL, "or"))]
-    lang: Language,
+        required_unless_present = "engine", help = Language::names(Language::ALL, "or"))]
+    lang: Option<Language>,
+    /// An engine, in whose spelling and with whose names a file is written that drops in there
+    #[arg(long = "for", value_name = "ENGINE", value_parser = Engine::from_name,
+        conflicts_with = "lang", long_help = engine_help())]
+    engine: Option<Engine>,
+    /// The function's head, in the language: its parameters are the inputs, in any order and as
+    /// components of vectors, under their names or such as `NoV`, `dotNV`, `perceptualRoughness`
+    #[arg(long, value_name = "HEAD")]
+    signature: Option<String>,
+    /// What an input is of the parameters, or a result of the outputs: `alpha = roughness^2`,
+    /// `n_dot_v = dot(n, v)`, `return.x = bias`, `return = f0*scale + bias`
+    #[arg(long = "let", value_name = "NAME = EXPRESSION")]
+    lets: Vec<String>,
+    /// The function's name
+    #[arg(long)]
+    name: Option<String>,
+    /// Keep inputs within their domain by clamps, whose cycles the comment states
+    #[arg(long)]
+    clamp_inputs: bool,
+    /// Write no comments; then `lgp verify` knows the columns only by the names in the code
+    #[arg(long)]
+    no_comments: bool,
+    /// Write to a file
+    #[arg(short, long, value_name = "FILE")]
+    output: Option<PathBuf>,
     #[arg(long, help = half_help())]
     half: bool,
     /// Use half precision, except for the fewest operations that must stay in single precision so
@@ -59,9 +87,18 @@ fn half_help() -> String {
     )
 }
 
+fn engine_help() -> String {
+    format!(
+        "An engine, in whose spelling and with whose names a file is written that drops in there: {}",
+        Engine::names("or")
+    )
+}
+
 #[derive(Serialize)]
 struct Emitted<'a> {
     language: &'a str,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    engine: Option<&'a str>,
     cost: f64,
     rmse: f64,
     formula: &'a str,
@@ -69,68 +106,107 @@ struct Emitted<'a> {
 }
 
 pub fn run(args: &Args, common: &Common) -> Result<(), Failure> {
+    let form = form(args)?;
     let (run, front) = run_folder::load(&args.run, args.which)?;
     let mut member = pick(args, &run, &front)?.clone();
     member.judge(&run.questions(), &run.names());
     let member = &member;
-    let code = match (args.half, args.half_error) {
-        (false, None) => run::snippet(&run, member, args.lang),
-        (_, bound) => half(args, &run, member, bound)?,
+    let called = form.called(&run, member).map_err(|error| Failure::usage(error.to_string()))?;
+    let half = match (args.half, args.half_error) {
+        (false, None) => None,
+        (_, bound) => Some(half(&form, &called, bound)?),
     };
+    let code = form.written(&run, member, &called, half.as_deref());
+    let language = form.language();
     let emitted = Emitted {
-        language: args.lang.name(),
+        language: language.name(),
+        engine: args.engine.map(Engine::name),
         cost: member.cost,
         rmse: member.error().rmse,
         formula: &member.formula,
         code: &code,
     };
-    common.result(&emitted, &code)
+    let Some(path) = &args.output else { return common.result(&emitted, &code) };
+    replace_file(path, code.as_bytes()).map_err(|error| Failure::unwritable(path, error))?;
+    let cycles = cycles_text(member.cost);
+    common.summary(&emitted, &format!("{}: a formula of {cycles} cycles", path.display()))
 }
 
-/// Returns the member in halves: throughout, or as far as the bound permits.
-fn half(
-    args: &Args,
-    run: &Run,
-    member: &FrontMember,
-    bound: Option<f64>,
-) -> Result<String, Failure> {
-    if !args.lang.has_halves() {
+/// Reads how the function is to be written.
+fn form(args: &Args) -> Result<Form, Failure> {
+    let usage = |message: String| Failure::usage(message);
+    let target = match (args.engine, args.lang) {
+        (Some(engine), _) => Target::Engine(engine),
+        (None, language) => Target::Language(language.unwrap_or(Language::Hlsl)),
+    };
+    let mut form = Form {
+        target,
+        function: args.name.clone(),
+        head: None,
+        lets: Lets::parse(&args.lets).map_err(|error| usage(format!("--let {error}")))?,
+        clamp_inputs: args.clamp_inputs,
+        comments: !args.no_comments,
+    };
+    let language = form.language();
+    if let Some(name) = args.name.as_ref().filter(|name| !language.can_be_called(name)) {
+        let message = format!("--name {name}: no name of a function in {language}; choose another");
+        return Err(usage(message));
+    }
+    if let Some(text) = &args.signature {
+        let (head, in_half) =
+            read_head(language, text).map_err(|error| usage(format!("--signature: {error}")))?;
+        let halves = args.half || args.half_error.is_some();
+        let tells = language.tells_halves() && !args.engine.is_some_and(Engine::has_both);
+        if in_half != halves && tells {
+            let message = match in_half {
+                true => "--signature is of halves: give --half or --half-error, too",
+                false => "--signature is of floats, and --half asks for halves: write their types",
+            };
+            return Err(usage(message.to_owned()));
+        }
+        form.head = Some(head);
+    }
+    Ok(form)
+}
+
+/// Returns the operations that stay in single precision in a function of halves.
+fn half(form: &Form, called: &Called, bound: Option<f64>) -> Result<Vec<usize>, Failure> {
+    let has_halves = match form.target {
+        Target::Language(language) => language.has_halves(),
+        Target::Engine(engine) => engine.has_halves(),
+    };
+    if !has_halves {
         let known = Language::names(&Language::with_halves(), "and");
-        let message = format!("--half: {} has no halves; {known} do", args.lang);
+        let message = match form.target {
+            Target::Language(language) => format!("--half: {language} has no halves; {known} do"),
+            Target::Engine(engine) => format!("--half: {engine} has no halves"),
+        };
         return Err(Failure::usage(message));
     }
-    let domain = run.questions().domain;
     let stay_single = match bound {
-        Some(bound) => stay_single(run, member, &domain, bound)?,
+        Some(bound) => stay_single(called, bound)?,
         None => Vec::new(),
     };
-    if let Some(lost) = unheld(&member.program, &domain, &stay_single) {
+    if let Some(lost) = unheld(&called.program, &called.domain, &stay_single) {
         let remedy = match bound {
             Some(_) => "emit it without --half-error",
             None => {
                 "--half-error E keeps such operations in single precision, where that is enough"
             }
         };
-        let message = format!("{}; {remedy}", unheld_text(&lost, member, &run.names()));
-        return Err(Failure::unmet(message));
+        return Err(Failure::unmet(format!("{}; {remedy}", unheld_text(&lost, called))));
     }
-    let code = run::half_snippet(run, member, args.lang, &domain, &stay_single);
-    Ok(code.expect("shading languages have halves"))
+    Ok(stay_single)
 }
 
 /// Returns the operations that must stay single to keep the error within `bound`.
-fn stay_single(
-    run: &Run,
-    member: &FrontMember,
-    domain: &[Interval],
-    bound: f64,
-) -> Result<Vec<usize>, Failure> {
-    let program = &member.program;
+fn stay_single(called: &Called, bound: f64) -> Result<Vec<usize>, Failure> {
+    let Called { program, domain, .. } = called;
     must_stay_single(program, domain, bound).ok_or_else(|| {
         let all: Vec<usize> = (0..program.instrs.len()).collect();
         let message = match unheld(program, domain, &all) {
             Some(lost) => {
-                let lost = unheld_text(&lost, member, &run.names());
+                let lost = unheld_text(&lost, called);
                 format!("--half-error {bound}: {lost}; emit it without")
             }
             None => format!(
@@ -143,8 +219,9 @@ fn stay_single(
 }
 
 /// Describes the value that no half holds.
-fn unheld_text(lost: &Unheld, member: &FrontMember, names: &Names) -> String {
-    let operation = |i: usize| expression(&member.program, i, names);
+fn unheld_text(lost: &Unheld, called: &Called) -> String {
+    let names = &called.names;
+    let operation = |i: usize| expression(&called.program, i, names);
     let at = |input: &[f32]| {
         let pairs = names.inputs.iter().zip(input);
         pairs.map(|(name, x)| format!("{name} = {x:?}")).collect::<Vec<_>>().join(", ")

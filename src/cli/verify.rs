@@ -2,8 +2,11 @@
 
 use super::truth::Sampled;
 use super::{Common, Failure, against};
-use crate::dataset::Dataset;
-use crate::emit::{Language, MAX_SNIPPET, ReadBack, Stated, StatedError, read_back};
+use crate::dataset::{Dataset, Split};
+use crate::emit::{
+    CallError, Engine, Language, MAX_SNIPPET, ReadBack, Stated, StatedError, column_called,
+    language_of, read_file,
+};
 use crate::eval::{Evaluator, OutputError, Samples, Score, Tape};
 use crate::program::{Names, Program};
 use crate::run::Subject;
@@ -91,21 +94,56 @@ pub fn run(args: &Args, common: &Common) -> Result<(), Failure> {
 }
 
 fn snippet_on(args: &Args, dataset: &Path, common: &Common) -> Result<(), Failure> {
-    let language = language_of(&args.snippet)?;
+    named_after_a_language(&args.snippet)?;
     let text = snippet_text(&args.snippet)?;
-    let code = read_back(language, &text).map_err(|error| unusable(&args.snippet, &error))?;
+    let read = read_file(&args.snippet, &text).expect("its name says what it is");
+    let (language, code) = read.map_err(|error| unusable(&args.snippet, &error))?;
     let Subject { dataset: whole, .. } =
         Subject::load(dataset, args.scene.as_deref(), |data| Ok(data.clone()))?;
+    let code = &code;
+    let refused = |error: CallError| unusable(&args.snippet, &error);
+    if !code.lets().map_err(refused)?.is_empty() {
+        return adapted(args, code, &whole, common);
+    }
     let names = columns(code.names.clone(), args.outputs.as_deref(), &whole, &args.snippet)?;
     let dataset = whole.select(Some(&names.inputs), Some(&names.outputs))?;
-    let score = score(&code, &dataset);
-    let stated = stated(&code, &names).map_err(|error| unusable(&args.snippet, &error))?;
+    let score = score(code, &dataset);
+    let stated = stated(code, &names).map_err(|error| unusable(&args.snippet, &error))?;
     // An equation does not say in what order its terms are computed.
     let tolerance = if language == Language::Latex { 1e-5 } else { 0.0 };
     let mismatch =
-        stated.as_ref().and_then(|stated| mismatch(&code, stated, &dataset, &names, tolerance));
+        stated.as_ref().and_then(|stated| mismatch(code, stated, &dataset, &names, tolerance));
     let agreement = stated.map(|_| mismatch);
     conclude(args, &score, &names.outputs, code.in_half, agreement, common)
+}
+
+/// Verifies a function whose comments say how it makes columns of its parameters.
+fn adapted(args: &Args, code: &ReadBack, whole: &Dataset, common: &Common) -> Result<(), Failure> {
+    let refused = |error: CallError| unusable(&args.snippet, &error);
+    let outputs = args.outputs.as_deref().unwrap_or(&code.names.outputs);
+    let over = code.over(whole, outputs).map_err(refused)?;
+    let made = |split: &Split| split.columns.iter().flatten().all(|value| value.is_finite());
+    if !made(&over.dataset.search) || !made(&over.dataset.validation) {
+        let reason =
+            "no parameters give some values of the data, by what its comments say (`let:`)";
+        return Err(unusable(&args.snippet, &reason));
+    }
+    let score = score(code, &over.dataset);
+    let columns = Names {
+        inputs: whole.inputs.iter().map(|column| column.name.clone()).collect(),
+        outputs: over.outputs(&whole.outputs),
+    };
+    let stated = code.stated_over(&columns).map_err(|error| unusable(&args.snippet, &error))?;
+    let agreement = match stated {
+        None => None,
+        Some(Stated { line, program }) => {
+            let program = over.called(&program, &columns).map_err(refused)?;
+            let names = Names { inputs: code.written.inputs.clone(), outputs: outputs.to_vec() };
+            let stated = Stated { line, program };
+            Some(mismatch(code, &stated, &over.dataset, &names, 0.0))
+        }
+    };
+    conclude(args, &score, outputs, code.in_half, agreement, common)
 }
 
 /// Shows the errors, and fails if they are too large or the code is not as its comment says:
@@ -186,16 +224,21 @@ pub(super) fn unusable(path: &Path, reason: &dyn Display) -> Failure {
     Failure::input(format!("{}: {reason}", path.display()))
 }
 
-fn language_of(path: &Path) -> Result<Language, Failure> {
-    Language::of_file(path).ok_or_else(|| {
-        let known = extensions();
-        unusable(path, &format!("its name says no language that can be read: {known}"))
-    })
+/// Refuses a file whose name says no language, before it is read.
+fn named_after_a_language(path: &Path) -> Result<(), Failure> {
+    if language_of(path).is_some() {
+        return Ok(());
+    }
+    let known = extensions();
+    Err(unusable(path, &format!("its name says no language that can be read: {known}")))
 }
 
 /// Lists the file extensions that can be read.
 fn extensions() -> String {
-    Language::list(Language::ALL, "or", |language| format!(".{}", language.extension()))
+    let languages = Language::ALL.iter().map(|language| language.extension());
+    let engines = Engine::ALL.iter().map(|engine| engine.extension());
+    let all: Vec<String> = languages.chain(engines).map(|name| format!(".{name}")).collect();
+    all.join(", ")
 }
 
 /// Returns the dataset's names for what the function takes and returns.
@@ -222,6 +265,12 @@ fn columns(
         let named = known.iter().find(|name| output.ends_with(&format!("_{name}")));
         if let Some(name) = named.filter(|_| !known.contains(output)) {
             output.clone_from(name);
+        }
+    }
+    // Without comments, inputs are told by the names that engines have for them.
+    for input in names.inputs.iter_mut().filter(|name| !known.contains(name)) {
+        if let Some(name) = column_called(input, &known) {
+            *input = name;
         }
     }
     for (what, name) in names
@@ -265,10 +314,12 @@ fn mismatch(
         true => Some("its operations and numbers are others".to_owned()),
         false => difference(&code.program, &stated.program, dataset, names, tolerance).err(),
     };
-    let reason = differs(code)?;
-    if code.literal.as_ref().is_some_and(|code| differs(code).is_none()) {
-        return None;
-    }
+    let of_one = |code: &ReadBack| {
+        let reason = differs(code)?;
+        code.literal.as_ref().is_none_or(|code| differs(code).is_some()).then_some(reason)
+    };
+    // Both functions of a file in two precisions are the formula.
+    let reason = of_one(code).or_else(|| code.variant.as_deref().and_then(of_one))?;
     Some(format!(
         "the code does not compute the formula in its comment (line {}): {reason}; mend the code, or delete \
          that line of the comment if the change is meant",

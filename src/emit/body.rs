@@ -1,7 +1,7 @@
 //! The statements of a function, in one precision or two.
 
 use super::naming::Naming;
-use super::syntax::{Binding, Conversion, Head, Spelling, Syntax, Written, pieces, power};
+use super::syntax::{Binding, Conversion, Spelling, Syntax, Written, WrittenHead, pieces, power};
 use crate::eval::{Arithmetic, Half};
 use crate::op::{MAX_ARITY, Op};
 use crate::program::spelling::{filled, move_signs, negated_product};
@@ -14,7 +14,7 @@ use std::collections::HashMap;
 pub(super) fn statements(
     syntaxes: Syntaxes,
     program: &Program,
-    head: &Head,
+    head: &WrittenHead,
     naming: &mut Naming,
 ) -> Vec<String> {
     let forms = forms(program, syntaxes);
@@ -160,7 +160,7 @@ impl Code {
 struct Body<'a, 'n> {
     syntaxes: Syntaxes<'a>,
     program: &'a Program,
-    head: &'a Head,
+    head: &'a WrittenHead,
     naming: &'a mut Naming<'n>,
     forms: Vec<Form>,
     codes: Vec<Code>,

@@ -3,7 +3,8 @@
 use super::c_family;
 use super::language::{Entry, Form};
 use super::syntax::{
-    Head, Plain, Readable, Spelling, Syntax, atom, decimal, is_word, negation, product, select, sum,
+    Plain, Readable, Spelling, Syntax, WrittenHead, atom, decimal, is_word, negation, product,
+    select, sum,
 };
 use crate::op::Op;
 
@@ -79,7 +80,7 @@ pub(super) fn non_finite(bits: u32) -> &'static str {
     }
 }
 
-fn open(syntax: &Syntax, head: &Head, lines: &mut Vec<String>) {
+fn open(syntax: &Syntax, head: &WrittenHead, lines: &mut Vec<String>) {
     lines.extend(["#include <math.h>".to_owned(), String::new()]);
     let returned = c_family::returned_type(syntax, head);
     if returned == head.structure {

@@ -1,8 +1,8 @@
 //! The syntax that C-like languages share; each language overrides what differs.
 
 use super::syntax::{
-    Conversion, Head, Plain, Readable, Spelling, Style, Syntax, atom, decimal, negation, product,
-    select, sum,
+    Conversion, Plain, Readable, Spelling, Style, Syntax, WrittenHead, atom, decimal, negation,
+    product, select, sum,
 };
 use crate::op::Op;
 
@@ -84,7 +84,7 @@ pub(super) fn spelling(op: Op) -> Spelling {
 }
 
 /// Opens a function that returns nothing, a float, a vector, or a structure.
-pub(super) fn open(syntax: &Syntax, head: &Head, lines: &mut Vec<String>) {
+pub(super) fn open(syntax: &Syntax, head: &WrittenHead, lines: &mut Vec<String>) {
     let returned = returned_type(syntax, head);
     if returned == head.structure {
         lines.push(format!("struct {returned} {{"));
@@ -94,7 +94,7 @@ pub(super) fn open(syntax: &Syntax, head: &Head, lines: &mut Vec<String>) {
     lines.push(first_line(syntax, head, &returned));
 }
 
-pub(super) fn returned_type(syntax: &Syntax, head: &Head) -> String {
+pub(super) fn returned_type(syntax: &Syntax, head: &WrittenHead) -> String {
     match head.returned.checked_sub(1) {
         None => "void".to_owned(),
         Some(last) => syntax.types.get(last).map_or(&head.structure[..], |of| of).to_owned(),
@@ -106,7 +106,7 @@ pub(super) fn members(syntax: &Syntax, outputs: &[String]) -> Vec<String> {
     outputs.iter().map(|name| format!("    {} {name};", syntax.types[0])).collect()
 }
 
-pub(super) fn first_line(syntax: &Syntax, head: &Head, returned: &str) -> String {
+pub(super) fn first_line(syntax: &Syntax, head: &WrittenHead, returned: &str) -> String {
     let parameters = head.parameters.iter().map(|parameter| {
         let of = syntax.types[parameter.size - 1];
         match (parameter.out, syntax.out_parameter) {
@@ -117,10 +117,10 @@ pub(super) fn first_line(syntax: &Syntax, head: &Head, returned: &str) -> String
     format!("{returned} {}({}) {{", head.function, parameters.collect::<Vec<_>>().join(", "))
 }
 
-pub(super) fn close(syntax: &Syntax, head: &Head, lines: &mut Vec<String>) {
+pub(super) fn close(syntax: &Syntax, head: &WrittenHead, lines: &mut Vec<String>) {
     lines.extend(assigned_vectors(syntax, head));
     if head.returned > syntax.types.len() {
-        let Head { structure, result, .. } = head;
+        let WrittenHead { structure, result, .. } = head;
         let values = head.outputs[..head.returned].join(", ");
         lines.push(format!("    const {structure} {result} = {{ {values} }};"));
         lines.push(format!("    return {result};"));
@@ -130,7 +130,7 @@ pub(super) fn close(syntax: &Syntax, head: &Head, lines: &mut Vec<String>) {
 }
 
 /// Assigns vectors to the parameters that results leave by.
-pub(super) fn assigned_vectors(syntax: &Syntax, head: &Head) -> Vec<String> {
+pub(super) fn assigned_vectors(syntax: &Syntax, head: &WrittenHead) -> Vec<String> {
     let vectors = head.out_places().into_iter().filter(|(parameter, _)| parameter.size > 1);
     let assigned = vectors.map(|(parameter, outputs)| {
         let (vector, values) =
@@ -141,7 +141,7 @@ pub(super) fn assigned_vectors(syntax: &Syntax, head: &Head) -> Vec<String> {
 }
 
 /// Returns the line that returns a float or a vector.
-pub(super) fn returned_value(syntax: &Syntax, head: &Head) -> Option<String> {
+pub(super) fn returned_value(syntax: &Syntax, head: &WrittenHead) -> Option<String> {
     let values = head.outputs[..head.returned].join(", ");
     match head.returned {
         1 => Some(format!("    return {values};")),

@@ -1,7 +1,7 @@
 //! C++14: an inline function, `constexpr` where it is arithmetic alone.
 
 use super::language::{Entry, Form};
-use super::syntax::{Head, Readable, Spelling, Syntax, atom, is_word, product, sum};
+use super::syntax::{Readable, Spelling, Syntax, WrittenHead, atom, is_word, product, sum};
 use super::{c, c_family};
 use crate::op::Op;
 
@@ -58,7 +58,7 @@ fn spelling(op: Op) -> Spelling {
     }
 }
 
-fn open(syntax: &Syntax, head: &Head, lines: &mut Vec<String>) {
+fn open(syntax: &Syntax, head: &WrittenHead, lines: &mut Vec<String>) {
     lines.extend(["algorithm", "cmath"].map(|name| format!("#include <{name}>")));
     lines.push(String::new());
     let from = lines.len();

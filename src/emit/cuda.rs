@@ -3,7 +3,7 @@
 use super::c;
 use super::c_family;
 use super::language::{Entry, Form};
-use super::syntax::{Head, Readable, Spelling, Syntax, atom, half_decimal, is_word, sum};
+use super::syntax::{Readable, Spelling, Syntax, WrittenHead, atom, half_decimal, is_word, sum};
 use crate::op::Op;
 
 pub(super) const LANGUAGE: Entry = Entry {
@@ -91,7 +91,7 @@ fn half_spelling(op: Op) -> Spelling {
     }
 }
 
-fn open(syntax: &Syntax, head: &Head, kind: &str, lines: &mut Vec<String>) {
+fn open(syntax: &Syntax, head: &WrittenHead, kind: &str, lines: &mut Vec<String>) {
     let from = lines.len();
     c_family::open(syntax, head, lines);
     let first = lines[from..].iter().position(|line| line.ends_with(") {")).expect("a first line");

@@ -3,7 +3,7 @@
 use super::c_family;
 use super::language::{Entry, Form};
 use super::syntax::{
-    Head, Readable, Spelling, Syntax, atom, half_decimal_outward, is_word, product, sum,
+    Readable, Spelling, Syntax, WrittenHead, atom, half_decimal_outward, is_word, product, sum,
 };
 use crate::op::Op;
 
@@ -69,7 +69,7 @@ fn spelling(op: Op) -> Spelling {
     }
 }
 
-fn close(syntax: &Syntax, head: &Head, lines: &mut Vec<String>) {
+fn close(syntax: &Syntax, head: &WrittenHead, lines: &mut Vec<String>) {
     if head.returned <= syntax.types.len() {
         return c_family::close(syntax, head, lines);
     }

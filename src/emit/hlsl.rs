@@ -2,7 +2,9 @@
 
 use super::c_family;
 use super::language::{Entry, Form};
-use super::syntax::{Plain, Readable, Spelling, Syntax, atom, half_decimal_outward, is_word};
+use super::syntax::{
+    Plain, Readable, Spelling, Syntax, atom, half_decimal, half_decimal_outward, is_word,
+};
 use crate::op::Op;
 
 pub(super) const LANGUAGE: Entry = Entry {
@@ -45,6 +47,11 @@ pub(super) const HALF: Syntax = Syntax {
     non_finite: |name, _, bits| vec![format!("const half {name} = half(asfloat({bits:#010x}));")],
     ..SYNTAX
 };
+
+/// Half precision for engines in which `half` is a macro of `float` elsewhere: there a suffix would
+/// make another type.
+pub(super) const HALF_BY_CAST: Syntax =
+    Syntax { literal: |value| format!("half({})", half_decimal(value)), ..HALF };
 
 fn spelling(op: Op) -> Spelling {
     match op {

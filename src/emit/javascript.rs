@@ -2,7 +2,7 @@
 //! first rounded to f64, so it can differ from a fused one in the last place.
 
 use super::c_family;
-use super::syntax::{Head, Spelling, Syntax, atom, is_word, negation};
+use super::syntax::{Spelling, Syntax, WrittenHead, atom, is_word, negation};
 use crate::op::Op;
 
 pub(super) const SYNTAX: Syntax = Syntax {
@@ -63,12 +63,12 @@ fn non_finite(bits: u32) -> &'static str {
     }
 }
 
-fn open(_: &Syntax, head: &Head, lines: &mut Vec<String>) {
-    let Head { function, inputs, .. } = head;
+fn open(_: &Syntax, head: &WrittenHead, lines: &mut Vec<String>) {
+    let WrittenHead { function, inputs, .. } = head;
     lines.push(format!("function {function}({}) {{", inputs.join(", ")));
 }
 
-fn close(_: &Syntax, head: &Head, lines: &mut Vec<String>) {
+fn close(_: &Syntax, head: &WrittenHead, lines: &mut Vec<String>) {
     lines.push(format!("    return [{}];", head.outputs.join(", ")));
     lines.push("}".to_owned());
 }

@@ -4,7 +4,8 @@ use super::c_family;
 use super::javascript;
 use super::language::{Entry, Form};
 use super::syntax::{
-    Head, Plain, Readable, Spelling, Style, Syntax, atom, decimal, negation, product, select, sum,
+    Plain, Readable, Spelling, Style, Syntax, WrittenHead, atom, decimal, negation, product,
+    select, sum,
 };
 use crate::op::Op;
 
@@ -72,11 +73,11 @@ fn spelling(op: Op) -> Spelling {
     }
 }
 
-fn open(_: &Syntax, head: &Head, lines: &mut Vec<String>) {
+fn open(_: &Syntax, head: &WrittenHead, lines: &mut Vec<String>) {
     lines.push(format!("export function {}({}) {{", head.function, head.inputs.join(", ")));
 }
 
-fn close(_: &Syntax, head: &Head, lines: &mut Vec<String>) {
+fn close(_: &Syntax, head: &WrittenHead, lines: &mut Vec<String>) {
     lines.push(match head.outputs.as_slice() {
         [output] => format!("    return {output};"),
         outputs => format!("    return [{}];", outputs.join(", ")),

@@ -1,10 +1,13 @@
 //! The list of languages; all other lists are made from it.
 
+use super::naming::is_identifier;
+use super::signature::{Head, Signature};
 use super::syntax::Syntax;
 use super::{
     c, cpp, cuda, glsl, glsl_es, hlsl, js, latex, materialx, msl, osl, python, rust, slang, tsl,
     wgsl,
 };
+use crate::program::Names;
 use crate::suggest::did_you_mean;
 use std::fmt;
 use std::path::Path;
@@ -168,9 +171,28 @@ impl Language {
         known.max_by_key(|language| language.extension().len()).copied()
     }
 
+    /// Returns the head that a function over these columns usually has.
+    pub fn head(self, function: &str, names: &Names) -> Head {
+        let by_parameters = self.syntax().is_some_and(|syntax| syntax.outputs_by_parameters);
+        let Signature { function, parameters, returned } =
+            Signature::of(function, names, by_parameters);
+        Head { function, parameters, returned: Some(returned), columns: Vec::new() }
+    }
+
     /// Returns true if the language has numbers of half precision.
     pub fn has_halves(self) -> bool {
         self.entry().half.is_some()
+    }
+
+    /// Returns true if a head's types say whether it is of halves; elsewhere a qualifier may.
+    pub fn tells_halves(self) -> bool {
+        self.has_halves() && self != Language::GlslEs
+    }
+
+    /// Returns true if a function may have this name.
+    pub fn can_be_called(self, name: &str) -> bool {
+        let reserved = self.syntax().map_or(glsl::SYNTAX.reserved, |syntax| syntax.reserved);
+        is_identifier(name) && !reserved(name)
     }
 
     /// Returns the languages that have numbers of half precision.

@@ -2,7 +2,7 @@
 
 use super::c_family;
 use super::language::{Entry, Form};
-use super::syntax::{Head, Spelling, Syntax, atom, negation, power, product, select, sum};
+use super::syntax::{Spelling, Syntax, WrittenHead, atom, negation, power, product, select, sum};
 use super::typeset::{Name, greek};
 use crate::op::Op;
 use crate::program::format_constant;
@@ -74,7 +74,7 @@ fn spelling(op: Op) -> Spelling {
     }
 }
 
-fn close(_: &Syntax, _: &Head, lines: &mut Vec<String>) {
+fn close(_: &Syntax, _: &WrittenHead, lines: &mut Vec<String>) {
     // A break after the last row would leave an empty one.
     if let Some(last) = lines.last_mut() {
         *last = last.trim_end_matches(r" \\").to_owned();

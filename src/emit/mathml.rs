@@ -1,7 +1,7 @@
 //! MathML Core, which browsers typeset by themselves: a table with an equation for each statement.
 
 use super::c_family;
-use super::syntax::{Head, Spelling, Syntax, atom, negation, power, product, select, sum};
+use super::syntax::{Spelling, Syntax, WrittenHead, atom, negation, power, product, select, sum};
 use super::typeset::{Name, greek};
 use crate::op::Op;
 use crate::program::format_constant;
@@ -22,7 +22,7 @@ pub(super) const SYNTAX: Syntax = Syntax {
     open: |_, _, lines| {
         lines.push("<math display=\"block\"><mtable class=\"equations\">".to_owned());
     },
-    close: |_: &Syntax, _: &Head, lines| lines.push("</mtable></math>".to_owned()),
+    close: |_: &Syntax, _: &WrittenHead, lines| lines.push("</mtable></math>".to_owned()),
     ..c_family::SYNTAX
 };
 

@@ -29,11 +29,14 @@
 //! # Ok::<(), lgp::program::ParseError>(())
 //! ```
 
+mod arguments;
 mod body;
 mod c;
 mod c_family;
+mod call;
 mod cpp;
 mod cuda;
+mod engine;
 mod glsl;
 mod glsl_es;
 mod header;
@@ -57,12 +60,16 @@ mod tsl;
 mod typeset;
 mod wgsl;
 
+pub use arguments::Arguments;
+pub use call::{Call, CallError, Lets, call, column_called};
+pub use engine::{Engine, UnknownEngine, emit_for};
 pub use header::header_lines;
 pub use language::{Language, UnknownLanguage};
 pub use read::{
-    MAX_SNIPPET, Precision, ReadBack, ReadError, Stated, StatedError, formula_line, read_back,
+    MAX_SNIPPET, Over, Precision, ReadBack, ReadError, Stated, StatedError, formula_line,
+    language_of, read_back, read_file, read_head,
 };
-pub use signature::{Parameter, Signature};
+pub use signature::{Head, Parameter, Signature};
 
 use crate::op::Op;
 use crate::program::{Names, Program};
@@ -111,7 +118,7 @@ impl<'a> Snippet<'a> {
 pub fn emit(language: Language, snippet: &Snippet) -> String {
     match language.syntax() {
         Some(syntax) => written(Syntaxes::one(syntax), snippet),
-        None => materialx::written(snippet, &function_name(snippet)),
+        None => materialx::written(snippet, &snippet.function_name()),
     }
 }
 
@@ -146,29 +153,42 @@ pub fn mathml(snippet: &Snippet) -> String {
 }
 
 fn written(syntaxes: Syntaxes, snippet: &Snippet) -> String {
+    let Code { mut comments, lines } = code(syntaxes, snippet);
+    comments.extend(lines);
+    comments.join("\n") + "\n"
+}
+
+/// A function, line by line.
+struct Code {
+    comments: Vec<String>,
+    lines: Vec<String>,
+}
+
+fn code(syntaxes: Syntaxes, snippet: &Snippet) -> Code {
     let syntax = syntaxes.function;
     let Snippet { program, names, header, .. } = *snippet;
     assert_eq!(names.inputs.len(), program.inputs, "a name for each input");
     assert_eq!(names.outputs.len(), program.outputs.len(), "a name for each output");
-    let usual = Signature::of(&function_name(snippet), names, syntax.outputs_by_parameters);
-    let mut naming =
-        Naming::new(syntax.reserved, snippet.signature.unwrap_or(&usual), &names.outputs);
+    let usual = Signature::of(&snippet.function_name(), names, syntax.outputs_by_parameters);
+    let signature = snippet.signature.unwrap_or(&usual);
+    let mut naming = Naming::new(syntax.reserved, signature, &names.outputs);
     let head = naming.head(is_arithmetic(program));
-    let mut lines: Vec<String> = Vec::new();
+    let mut comments: Vec<String> = Vec::new();
     if let Some(header) = header.filter(|_| !syntax.comment.is_empty()) {
-        lines.extend(header::commented(syntax.comment, header));
-        lines.extend(header::commented(syntax.comment, &naming.renamed()));
+        comments.extend(header::commented(syntax.comment, header));
+        comments.extend(header::commented(syntax.comment, &naming.renamed()));
         if syntax.states_head {
             let [inputs, outputs] = [&head.inputs, &head.outputs].map(|names| names.join(", "));
             let head = format!("{} {inputs} -> {outputs}", latex::COLUMNS);
-            lines.extend(header::commented(syntax.comment, &[head]));
+            comments.extend(header::commented(syntax.comment, &[head]));
         }
     }
+    let mut lines = Vec::new();
     (syntax.open)(syntax, &head, &mut lines);
     let statements = body::statements(syntaxes, program, &head, &mut naming);
     lines.extend(statements.iter().map(|line| format!("    {line}")));
     (syntax.close)(syntax, &head, &mut lines);
-    lines.join("\n") + "\n"
+    Code { comments, lines }
 }
 
 /// Returns true if the program computes no more than arithmetic, comparisons, minima and maxima.
@@ -194,13 +214,19 @@ fn is_arithmetic(program: &Program) -> bool {
     })
 }
 
-/// Returns `dfg_bias` for the single output `bias` of `dfg`, unless the name says it already.
-fn function_name(snippet: &Snippet) -> String {
-    let function = snippet.function;
-    match snippet.names.outputs.as_slice() {
-        [output] if function != output && !function.ends_with(&format!("_{output}")) => {
-            format!("{function}_{output}")
+impl Snippet<'_> {
+    /// Returns `dfg_bias` for the single output `bias` of `dfg`, unless the name says it already,
+    /// or a signature another.
+    fn function_name(&self) -> String {
+        let function = self.function;
+        match (self.signature, self.names.outputs.as_slice()) {
+            (Some(signature), _) => signature.function.clone(),
+            (None, [output])
+                if function != output && !function.ends_with(&format!("_{output}")) =>
+            {
+                format!("{function}_{output}")
+            }
+            _ => function.to_owned(),
         }
-        _ => function.to_owned(),
     }
 }

@@ -2,7 +2,7 @@
 
 use super::read::name_line;
 use super::signature::{Parameter, Signature};
-use super::syntax::Head;
+use super::syntax::WrittenHead;
 use std::collections::HashSet;
 
 /// The names of one function, and those already taken.
@@ -47,7 +47,7 @@ impl<'a> Naming<'a> {
         self.outputs.iter().zip(alone).filter(|(_, alone)| !alone).map(|(output, _)| output)
     }
 
-    pub fn head(&mut self, arithmetic: bool) -> Head {
+    pub fn head(&mut self, arithmetic: bool) -> WrittenHead {
         let Signature { parameters, returned, .. } = self.signature;
         let mut names = self.written.iter().cloned();
         let function = names.next().expect("a function has a name");
@@ -70,7 +70,16 @@ impl<'a> Naming<'a> {
         let structure = self.fresh(&format!("{function}_outputs"));
         let result = self.fresh("result");
         let returned = *returned;
-        Head { function, parameters, inputs, outputs, returned, structure, result, arithmetic }
+        WrittenHead {
+            function,
+            parameters,
+            inputs,
+            outputs,
+            returned,
+            structure,
+            result,
+            arithmetic,
+        }
     }
 
     /// Returns a line for each name that could not be kept.
@@ -116,7 +125,7 @@ impl<'a> Naming<'a> {
     }
 }
 
-fn is_identifier(name: &str) -> bool {
+pub(super) fn is_identifier(name: &str) -> bool {
     name.starts_with(|c: char| c.is_ascii_alphabetic() || c == '_')
         && name.bytes().all(|b| b.is_ascii_alphanumeric() || b == b'_')
 }

@@ -6,7 +6,7 @@
 use super::c_family;
 use super::language::{Entry, Form};
 use super::syntax::{
-    Conversion, Head, Readable, Spelling, Syntax, atom, decimal, is_word, select, sum,
+    Conversion, Readable, Spelling, Syntax, WrittenHead, atom, decimal, is_word, select, sum,
 };
 use crate::op::Op;
 
@@ -32,6 +32,19 @@ pub(super) const SYNTAX: Syntax = Syntax {
     ..c_family::SYNTAX
 };
 
+/// A shader with its parameters' default values, for renderers' nodes.
+pub(super) const SHADER: Syntax = Syntax {
+    open: |_, head, lines| {
+        let parameters = head.parameters.iter().map(|parameter| match parameter.out {
+            true => format!("output float {} = 0.0", parameter.name),
+            false => format!("float {} = 0.5", parameter.name),
+        });
+        let parameters = parameters.collect::<Vec<_>>().join(", ");
+        lines.push(format!("shader {}({parameters}) {{", head.function));
+    },
+    ..SYNTAX
+};
+
 fn spelling(op: Op) -> Spelling {
     match op {
         Op::Saturate => atom("clamp({a}, 0.0, 1.0)"),
@@ -51,11 +64,11 @@ fn finite(bits: u32) -> String {
     }
 }
 
-fn close(syntax: &Syntax, head: &Head, lines: &mut Vec<String>) {
+fn close(syntax: &Syntax, head: &WrittenHead, lines: &mut Vec<String>) {
     if head.returned <= syntax.types.len() {
         return c_family::close(syntax, head, lines);
     }
-    let Head { structure, result, .. } = head;
+    let WrittenHead { structure, result, .. } = head;
     let values = head.outputs[..head.returned].join(", ");
     lines.push(format!("    {structure} {result} = {{ {values} }};"));
     lines.push(format!("    return {result};"));

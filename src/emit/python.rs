@@ -3,7 +3,7 @@
 use super::c_family;
 use super::language::{Entry, Form};
 use super::syntax::{
-    Head, Plain, Readable, Spelling, Style, Syntax, atom, is_word, negation, product, sum,
+    Plain, Readable, Spelling, Style, Syntax, WrittenHead, atom, is_word, negation, product, sum,
 };
 use crate::op::Op;
 
@@ -81,13 +81,13 @@ fn non_finite(bits: u32) -> &'static str {
     }
 }
 
-fn open(_: &Syntax, head: &Head, lines: &mut Vec<String>) {
-    let Head { function, inputs, .. } = head;
+fn open(_: &Syntax, head: &WrittenHead, lines: &mut Vec<String>) {
+    let WrittenHead { function, inputs, .. } = head;
     lines.extend(["import numpy as np", "", ""].map(str::to_owned));
     lines.push(format!("def {function}({}):", inputs.join(", ")));
 }
 
-fn close(_: &Syntax, head: &Head, lines: &mut Vec<String>) {
+fn close(_: &Syntax, head: &WrittenHead, lines: &mut Vec<String>) {
     lines.push(format!("    return {}", head.outputs.join(", ")));
 }
 

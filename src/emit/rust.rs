@@ -3,7 +3,7 @@
 use super::c_family;
 use super::language::{Entry, Form};
 use super::syntax::{
-    Head, Readable, Spelling, Style, Syntax, atom, is_word, negation, product, select, sum,
+    Readable, Spelling, Style, Syntax, WrittenHead, atom, is_word, negation, product, select, sum,
 };
 use crate::op::Op;
 
@@ -81,8 +81,8 @@ fn non_finite(bits: u32) -> &'static str {
     }
 }
 
-fn open(syntax: &Syntax, head: &Head, lines: &mut Vec<String>) {
-    let Head { function, inputs, outputs, .. } = head;
+fn open(syntax: &Syntax, head: &WrittenHead, lines: &mut Vec<String>) {
+    let WrittenHead { function, inputs, outputs, .. } = head;
     let inputs: Vec<String> = inputs.iter().map(|name| (syntax.parameter)("f32", name)).collect();
     let returned = match outputs.len() {
         1 => "f32".to_owned(),
@@ -91,7 +91,7 @@ fn open(syntax: &Syntax, head: &Head, lines: &mut Vec<String>) {
     lines.push(format!("pub fn {function}({}) -> {returned} {{", inputs.join(", ")));
 }
 
-fn close(_: &Syntax, head: &Head, lines: &mut Vec<String>) {
+fn close(_: &Syntax, head: &WrittenHead, lines: &mut Vec<String>) {
     let values = head.outputs.join(", ");
     lines.push(if head.outputs.len() == 1 {
         format!("    {values}")

@@ -1,5 +1,6 @@
 //! How a function is called: its name, what it takes, and how its results leave it.
 
+use super::call::component_of;
 use crate::program::Names;
 
 /// A parameter: a float or a vector of two to four.
@@ -23,8 +24,53 @@ impl Parameter {
     }
 }
 
+impl Parameter {
+    /// As [`Parameter::components`], with numbers where a vector has no letters.
+    pub(super) fn components_of_any_size(&self) -> Vec<String> {
+        match self.size {
+            0 => Vec::new(),
+            1..=4 => self.components(),
+            size => (0..size).map(|i| format!("{}.{i}", self.name)).collect(),
+        }
+    }
+}
+
 /// The components of a vector.
 pub(super) const COMPONENTS: [&str; 4] = ["x", "y", "z", "w"];
+
+/// A function's head, before it is known how many values it returns.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Head {
+    /// The function's name.
+    pub function: String,
+    /// Its parameters.
+    pub parameters: Vec<Parameter>,
+    /// The number of values that it returns; none if it returns what nothing else takes.
+    pub returned: Option<usize>,
+    /// Columns, each with the component that is known to be it; others are told by their names.
+    pub columns: Vec<(String, String)>,
+}
+
+impl Head {
+    /// Returns the names of the components that values come by, or that results leave by.
+    pub(super) fn components(&self, out: bool) -> Vec<String> {
+        let parameters = self.parameters.iter().filter(|parameter| parameter.out == out);
+        parameters.flat_map(Parameter::components).collect()
+    }
+
+    /// Returns the component that is a column.
+    pub fn component(&self, column: &str) -> Option<String> {
+        let components = self.components(false);
+        let known = self.columns.iter().find(|(known, _)| known == column);
+        let named = || component_of(column, &components).map(|place| components[place].clone());
+        known.map(|(_, component)| component.clone()).or_else(named)
+    }
+
+    /// Returns the names of what is returned: `return`, or `return.x` and so on.
+    pub(super) fn returned_names(&self, count: usize) -> Vec<String> {
+        Parameter { name: "return".to_owned(), size: count, out: false }.components_of_any_size()
+    }
+}
 
 /// The head of a function. A program's inputs are the components of the parameters that values come
 /// by, in order; its outputs are first those that are returned, then the components of the

@@ -47,9 +47,9 @@ pub(super) struct Syntax {
     /// Declares a local that is infinite or NaN, and perhaps one for its bits.
     pub non_finite: fn(name: &str, bits_name: &str, bits: u32) -> Vec<String>,
     /// Adds the lines above the function's body.
-    pub open: fn(&Syntax, &Head, &mut Vec<String>),
+    pub open: fn(&Syntax, &WrittenHead, &mut Vec<String>),
     /// Adds the lines that return the outputs and end the function.
-    pub close: fn(&Syntax, &Head, &mut Vec<String>),
+    pub close: fn(&Syntax, &WrittenHead, &mut Vec<String>),
     /// The function that makes a float of its bits.
     pub float_of_bits: &'static str,
     pub readable: Readable,
@@ -114,7 +114,7 @@ pub(super) struct Readable {
 }
 
 /// A function's head, and the names in its body, as the language allows them.
-pub(super) struct Head {
+pub(super) struct WrittenHead {
     pub function: String,
     pub parameters: Vec<Parameter>,
     /// What the body writes for each input.
@@ -130,7 +130,7 @@ pub(super) struct Head {
     pub arithmetic: bool,
 }
 
-impl Head {
+impl WrittenHead {
     /// Returns true if the output is a parameter by itself, which its value is assigned to.
     pub fn is_parameter(&self, output: usize) -> bool {
         self.out_places()

@@ -3,7 +3,9 @@
 use super::c_family;
 use super::javascript;
 use super::language::{Entry, Form};
-use super::syntax::{Head, Plain, Readable, Spelling, Style, Syntax, atom, decimal, is_word};
+use super::syntax::{
+    Plain, Readable, Spelling, Style, Syntax, WrittenHead, atom, decimal, is_word,
+};
 use crate::op::Op;
 
 pub(super) const LANGUAGE: Entry = Entry {
@@ -55,7 +57,7 @@ fn non_finite(bits: u32) -> String {
 }
 
 /// The line of imports is written last, when it is known what is used.
-fn open(_: &Syntax, head: &Head, lines: &mut Vec<String>) {
+fn open(_: &Syntax, head: &WrittenHead, lines: &mut Vec<String>) {
     lines.extend([String::new(), String::new()]);
     let parameters: Vec<&str> = head.parameters.iter().map(|p| p.name.as_str()).collect();
     let (function, parameters) = (&head.function, parameters.join(", "));
@@ -66,11 +68,11 @@ fn open(_: &Syntax, head: &Head, lines: &mut Vec<String>) {
 }
 
 /// A function of nodes returns one: a float or a vector.
-fn returns_a_node(head: &Head) -> bool {
+fn returns_a_node(head: &WrittenHead) -> bool {
     head.outputs.len() <= 4
 }
 
-fn close(_: &Syntax, head: &Head, lines: &mut Vec<String>) {
+fn close(_: &Syntax, head: &WrittenHead, lines: &mut Vec<String>) {
     let values = head.outputs.join(", ");
     lines.push(match head.outputs.len() {
         1 => format!("    return float({values});"),

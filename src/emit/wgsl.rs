@@ -2,7 +2,9 @@
 
 use super::c_family;
 use super::language::{Entry, Form};
-use super::syntax::{Head, Plain, Readable, Spelling, Style, Syntax, atom, half_decimal, is_word};
+use super::syntax::{
+    Plain, Readable, Spelling, Style, Syntax, WrittenHead, atom, half_decimal, is_word,
+};
 use crate::op::Op;
 
 pub(super) const LANGUAGE: Entry = Entry {
@@ -65,7 +67,7 @@ fn spelling(op: Op) -> Spelling {
     }
 }
 
-fn open(syntax: &Syntax, head: &Head, lines: &mut Vec<String>) {
+fn open(syntax: &Syntax, head: &WrittenHead, lines: &mut Vec<String>) {
     let returned = c_family::returned_type(syntax, head);
     if returned == head.structure {
         lines.push(format!("struct {returned} {{"));
@@ -79,7 +81,7 @@ fn open(syntax: &Syntax, head: &Head, lines: &mut Vec<String>) {
     lines.push(format!("fn {}({parameters}) -> {returned} {{", head.function));
 }
 
-fn close(syntax: &Syntax, head: &Head, lines: &mut Vec<String>) {
+fn close(syntax: &Syntax, head: &WrittenHead, lines: &mut Vec<String>) {
     let of_structure = || format!("    return {}({});", head.structure, head.outputs.join(", "));
     lines.push(c_family::returned_value(syntax, head).unwrap_or_else(of_structure));
     lines.push("}".to_owned());

@@ -56,7 +56,7 @@ pub use original::ORIGINAL;
 pub use outcome::{Outcome, Phase, Progress};
 pub use record::{Budget, Run};
 pub use session::{Session, guess};
-pub use snippet::{domains, half_snippet, header, one_line, seeds, snippet};
+pub use snippet::{Called, Form, Target, domains, header, one_line, seeds, snippet};
 pub use subject::{Subject, SubjectError, noted};
 pub use timetable::Timetable;
 pub use trace::{TRACE_COSTS, Trace, TracePoint, trace_csv};

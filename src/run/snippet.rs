@@ -2,13 +2,13 @@
 
 use super::Run;
 use crate::dataset::Column;
-use crate::emit::{self, Language, Snippet};
+use crate::emit::{self, Arguments, Call, CallError, Engine, Head, Language, Lets, Snippet};
 use crate::eval::OutputError;
 use crate::fit::Measure;
 use crate::num::Interval;
-use crate::program::shortest;
+use crate::program::{Names, Program, format_constant, shortest};
 use crate::search::{CostOf, FrontMember};
-use crate::stability::half_loss;
+use crate::stability::{half_loss, unheld};
 use crate::truth::DomainError;
 use crate::wording::examination::at_most;
 use crate::wording::{cycles_text, error_text, number_text, title, verdict_lines};
@@ -20,28 +20,216 @@ pub fn snippet(run: &Run, member: &FrontMember, language: Language) -> String {
     emit::emit(language, &Snippet::new(&member.program, &names, &run.name).header(&header))
 }
 
-/// Returns a member in half precision except for some instructions, if the language has halves.
-pub fn half_snippet(
-    run: &Run,
-    member: &FrontMember,
-    language: Language,
+/// What a member is written for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Target {
+    /// A language.
+    Language(Language),
+    /// An engine.
+    Engine(Engine),
+}
+
+/// How a member is written.
+#[derive(Clone, Debug)]
+pub struct Form {
+    /// The language or engine.
+    pub target: Target,
+    /// The function's name, if it is another than the run's.
+    pub function: Option<String>,
+    /// The function's head, if it is another than usual.
+    pub head: Option<Head>,
+    /// What is said of inputs and results.
+    pub lets: Lets,
+    /// True if inputs are clamped to their domain.
+    pub clamp_inputs: bool,
+    /// True if there are comments.
+    pub comments: bool,
+}
+
+/// A member as it is called.
+#[derive(Clone, Debug)]
+pub struct Called {
+    /// The program, over the parameters.
+    pub program: Program,
+    /// The names of its inputs and outputs.
+    pub names: Names,
+    /// The ranges of its inputs.
+    pub domain: Vec<Interval>,
+    /// The call, unless the function is as usual.
+    call: Option<Call>,
+}
+
+impl Form {
+    /// Returns the usual form in a language.
+    pub fn of(language: Language) -> Form {
+        let (function, head, lets) = (None, None, Lets::default());
+        let target = Target::Language(language);
+        Form { target, function, head, lets, clamp_inputs: false, comments: true }
+    }
+
+    /// Returns the language of the function.
+    pub fn language(&self) -> Language {
+        match self.target {
+            Target::Language(language) => language,
+            Target::Engine(engine) => engine.language(),
+        }
+    }
+
+    /// Returns a member as this form calls it.
+    ///
+    /// # Errors
+    /// [`CallError`] if a head does not fit.
+    pub fn called(&self, run: &Run, member: &FrontMember) -> Result<Called, CallError> {
+        let (names, program) = (run.names(), &member.program);
+        let mut lets = self.lets.clone();
+        let mut function = self.function.clone().unwrap_or_else(|| run.name.clone());
+        let head = match (&self.head, self.target) {
+            (Some(head), _) => Some(head.clone()),
+            (None, Target::Engine(engine)) => {
+                let [output] = names.outputs.as_slice() else {
+                    return self.with(run, engine.head(&function, &names), program, lets);
+                };
+                if self.function.is_none() && !function.ends_with(&format!("_{output}")) {
+                    function = format!("{function}_{output}");
+                }
+                Some(engine.head(&function, &names))
+            }
+            (None, Target::Language(language)) => {
+                let usual = self.function.is_none() && !self.clamp_inputs && self.lets.is_empty();
+                (!usual).then(|| language.head(&function, &names))
+            }
+        };
+        match head {
+            Some(head) => self.with(run, head, program, std::mem::take(&mut lets)),
+            None => {
+                let domain = run.questions().domain;
+                Ok(Called { program: program.clone(), names, domain, call: None })
+            }
+        }
+    }
+
+    fn with(
+        &self,
+        run: &Run,
+        mut head: Head,
+        program: &Program,
+        mut lets: Lets,
+    ) -> Result<Called, CallError> {
+        let names = run.names();
+        if let Some(function) = &self.function
+            && self.head.is_some()
+        {
+            head.function.clone_from(function);
+        }
+        if self.clamp_inputs {
+            for column in &run.inputs {
+                let value = match lets.of(&column.name) {
+                    Some(text) => Some(text.to_owned()),
+                    None => head.component(&column.name),
+                };
+                if let Some(value) = value {
+                    lets.set(&column.name, clamped(&value, column.domain));
+                }
+            }
+        }
+        let call = emit::call(program, &names, &head, &lets)?;
+        let arguments = Arguments::of(&call.names.inputs, &names.inputs, &head.columns, &lets)?;
+        let domains: Vec<[f64; 2]> = run.inputs.iter().map(|column| column.domain).collect();
+        let domain = arguments.domain(&domains);
+        let domain =
+            domain.iter().map(|[low, high]| Interval::new(*low as f32, *high as f32)).collect();
+        let (program, names) = (call.program.clone(), call.names.clone());
+        Ok(Called { program, names, domain, call: Some(call) })
+    }
+
+    /// Writes a member as it is called; in half precision except for the instructions of `half`,
+    /// if it is given.
+    pub fn written(
+        &self,
+        run: &Run,
+        member: &FrontMember,
+        called: &Called,
+        half: Option<&[usize]>,
+    ) -> String {
+        let mut header = header(run, member);
+        if let Some(call) = &called.call {
+            header.extend(cost_of_call(run, member, called));
+            header.extend(call.comments.iter().cloned());
+        }
+        let stay_single = half.map(<[usize]>::to_vec).or_else(|| self.half_beside(called));
+        if let Some(stay_single) = &stay_single {
+            let only = half.is_none();
+            header.extend(half_lines(&called.program, &called.domain, stay_single, only));
+        }
+        let header = self.comments.then_some(header.as_slice());
+        match (self.target, &called.call) {
+            (Target::Engine(engine), Some(call)) => {
+                emit::emit_for(engine, call, header, stay_single.as_deref())
+            }
+            _ => {
+                let mut snippet = Snippet::new(&called.program, &called.names, &run.name);
+                if let Some(call) = &called.call {
+                    snippet = snippet.signature(&call.signature);
+                }
+                let snippet = match header {
+                    Some(header) => snippet.header(header),
+                    None => snippet.without_comments(),
+                };
+                let language = self.language();
+                let halves = stay_single.and_then(|s| emit::emit_half(language, &snippet, &s));
+                halves.unwrap_or_else(|| emit::emit(language, &snippet))
+            }
+        }
+    }
+
+    /// Returns what stays in single precision in the function of halves that some engines' files
+    /// have beside the one of floats: nothing, or all if halves do not hold it.
+    fn half_beside(&self, called: &Called) -> Option<Vec<usize>> {
+        let Target::Engine(engine) = self.target else { return None };
+        if !engine.has_both() {
+            return None;
+        }
+        let held = unheld(&called.program, &called.domain, &[]).is_none();
+        Some(if held { Vec::new() } else { (0..called.program.instrs.len()).collect() })
+    }
+}
+
+/// Returns the expression of an input that is kept within its domain.
+fn clamped(value: &str, domain: [f64; 2]) -> String {
+    let [low, high] = domain.map(|end| format_constant(end as f32));
+    match domain {
+        [0.0, 1.0] => format!("saturate({value})"),
+        _ => format!("min(max({value}, {low}), {high})"),
+    }
+}
+
+/// Returns the line on what the function costs as it is called, if that is something else.
+fn cost_of_call(run: &Run, member: &FrontMember, called: &Called) -> Option<String> {
+    let profile = run.profile()?;
+    let cycles = |program| cycles_text(profile.cost(program).cycles);
+    let cycles = [cycles(&member.program), cycles(&called.program)];
+    let [_, called] = &cycles;
+    (cycles[0] != *called).then(|| format!("as it is called here: {called} cycles on {}", run.gpu))
+}
+
+/// Describes what halves lose.
+fn half_lines(
+    program: &Program,
     domain: &[Interval],
     stay_single: &[usize],
-) -> Option<String> {
-    let (names, mut header) = (run.names(), header(run, member));
-    let (error, tried) = half_loss(&member.program, domain, stay_single);
-    header
-        .push("cost, errors and verdicts above are those of single precision; this is".to_owned());
-    header.push(match stay_single.len() {
-        0 => "in half precision throughout,".to_owned(),
-        singles => {
-            let total = member.program.instrs.len();
-            format!("in half precision, {singles} of {total} operations in single,")
-        }
-    });
-    header.push(format!("which adds an error of {}", at_most(&number_text(error), tried)));
-    let snippet = Snippet::new(&member.program, &names, &run.name).header(&header);
-    emit::emit_half(language, &snippet, stay_single)
+    beside: bool,
+) -> Vec<String> {
+    let (error, tried) = half_loss(program, domain, stay_single);
+    let subject = if beside { "the function of halves is" } else { "this is" };
+    let total = program.instrs.len();
+    vec![
+        format!("cost, errors and verdicts above are those of single precision; {subject}"),
+        match stay_single.len() {
+            0 => "in half precision throughout,".to_owned(),
+            singles => format!("in half precision, {singles} of {total} operations in single,"),
+        },
+        format!("which adds an error of {}", at_most(&number_text(error), tried)),
+    ]
 }
 
 /// Returns the comment above a member, as lines.

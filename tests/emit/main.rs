@@ -2,6 +2,7 @@
 //! take it, and that it computes what the interpreter computes.
 
 mod agreement;
+mod call;
 mod compile;
 mod half;
 mod hosts;

@@ -28,6 +28,14 @@ pub(in crate::emit) fn name_line(written: &str, name: &str) -> String {
     format!("{NAME} {written} = {name}")
 }
 
+/// The mark of a line that says how a column is made of parameters, or a result of columns.
+const LET: &str = "let:";
+
+/// Returns the comment line of such a statement.
+pub(in crate::emit) fn let_line(target: &str, expression: &str) -> String {
+    format!("{LET} {target} = {expression}")
+}
+
 /// A formula in a comment.
 #[derive(Clone, Debug)]
 pub struct Stated {
@@ -64,6 +72,8 @@ pub(super) struct Contract {
     unmarked: Vec<(usize, String)>,
     /// Columns by their written names.
     columns: HashMap<String, String>,
+    /// The statements about columns and results.
+    lets: Vec<String>,
 }
 
 impl Contract {
@@ -82,13 +92,19 @@ impl Contract {
         // The form from before lines were marked.
         let renamed = (text.strip_prefix(NAME).and_then(|text| text.split_once(" = ")))
             .or_else(|| text.split_once(" is the column "));
-        if let Some(formula) = text.strip_prefix(FORMULA) {
+        if let Some(statement) = text.strip_prefix(LET) {
+            self.lets.push(statement.trim().to_owned());
+        } else if let Some(formula) = text.strip_prefix(FORMULA) {
             self.formulas.push((line, formula.trim().to_owned()));
         } else if let Some((written, column)) = renamed {
             self.columns.insert(written.trim().to_owned(), unescaped(column));
         } else {
             self.unmarked.push((line, text.to_owned()));
         }
+    }
+
+    pub fn lets(&self) -> &[String] {
+        &self.lets
     }
 
     /// Restores the names of columns that are written differently.

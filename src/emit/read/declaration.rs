@@ -4,7 +4,7 @@ use super::lex::Token;
 use super::types::{Float, Type};
 use super::{Out, Read, Reader, Several, Structure, Value};
 use crate::emit::Language;
-use crate::emit::signature::COMPONENTS;
+use crate::emit::signature::{COMPONENTS, Parameter};
 use crate::emit::syntax::Style;
 use crate::program::{Arg, Names};
 
@@ -22,6 +22,24 @@ impl Reader<'_> {
         let outputs = self.body()?;
         self.end()?;
         Ok(Names { inputs, outputs })
+    }
+
+    /// Reads a head without a body.
+    pub(super) fn head_alone(&mut self) -> Read<()> {
+        let style = self.syntax.readable.style;
+        match style {
+            Style::C => drop(self.c_signature()?),
+            Style::Wgsl | Style::Rust => drop(self.fn_signature()?),
+            Style::Script | Style::Nodes | Style::Python => {
+                self.qualifiers(&["export", "const", "function", "def"]);
+                self.function_name()?;
+                self.names_of_parameters(')')?;
+            }
+        }
+        match self.peek() {
+            None | Some(Token::Symbol(';')) => Ok(()),
+            Some(_) => self.error(self.offset(), "expected the end of the signature"),
+        }
     }
 
     fn head(&mut self) -> Read<Vec<String>> {
@@ -138,6 +156,12 @@ impl Reader<'_> {
 
     /// Reads `fn f(x: f32) -> f32 {`.
     fn fn_head(&mut self) -> Read<Vec<String>> {
+        let inputs = self.fn_signature()?;
+        self.expect('{', "and the body of the function")?;
+        Ok(inputs)
+    }
+
+    fn fn_signature(&mut self) -> Read<Vec<String>> {
         self.qualifiers(self.syntax.readable.of_functions);
         if !self.take_word("fn") {
             return self.error(self.offset(), "expected a function, `fn f(x: f32) -> f32`");
@@ -151,7 +175,6 @@ impl Reader<'_> {
             false => self.returned_type()?,
         }
         self.same_types()?;
-        self.expect('{', "and the body of the function")?;
         Ok(inputs)
     }
 
@@ -175,6 +198,12 @@ impl Reader<'_> {
 
     /// Reads `float f(float x) {`.
     fn c_head(&mut self) -> Read<Vec<String>> {
+        let inputs = self.c_signature()?;
+        self.expect('{', "and the body of the function")?;
+        Ok(inputs)
+    }
+
+    fn c_signature(&mut self) -> Read<Vec<String>> {
         self.qualifiers(self.syntax.readable.of_functions);
         if self.peek().is_none() {
             return self.error(self.offset(), "expected a function");
@@ -192,7 +221,6 @@ impl Reader<'_> {
             self.of = first.of;
         }
         self.same_types()?;
-        self.expect('{', "and the body of the function")?;
         Ok(inputs)
     }
 
@@ -295,6 +323,7 @@ impl Reader<'_> {
             let is_out = if prefix.is_some() { marked } else { reference };
             if is_out {
                 self.allowed(&name, at)?;
+                self.parameters.push(Parameter { name: name.clone(), size, out: true });
                 self.outs.push(Out { name, of, size, value: None });
             } else {
                 self.parameter(&name, size, of, &mut names, at)?;
@@ -343,6 +372,7 @@ impl Reader<'_> {
         if names.len() + size > usize::from(u16::MAX) {
             return self.error(at, "a function has no more than 65535 parameters");
         }
+        self.parameters.push(Parameter { name: name.to_owned(), size, out: false });
         let float = |i: usize| Float { arg: Arg::Input(i as u16), of, exact: None };
         if size == 1 {
             self.define(name, Value::Float(float(names.len())), at)?;

@@ -3,7 +3,7 @@
 
 use super::lex::Comment;
 use super::{Contract, Precision, Read, ReadBack, ReadError};
-use crate::emit::latex::{COLUMNS, written};
+use crate::emit::latex::{self, COLUMNS};
 use crate::program::{Names, effective, parse};
 use std::collections::HashMap;
 
@@ -33,7 +33,7 @@ pub(super) fn read(text: &str) -> Read<ReadBack> {
     let plain =
         Names { inputs: numbered('x', &names.inputs), outputs: numbered('y', &names.outputs) };
     for (name, plain) in names.inputs.iter().zip(&plain.inputs) {
-        reader.names.insert(written(name), plain.clone());
+        reader.names.insert(latex::written(name), plain.clone());
     }
     let mut formula = String::new();
     for (start, equation) in equations {
@@ -41,7 +41,7 @@ pub(super) fn read(text: &str) -> Read<ReadBack> {
             return failed(start, "expected an equation, `y &= x`");
         };
         let left = left.trim();
-        let output = names.outputs.iter().position(|name| written(name) == left);
+        let output = names.outputs.iter().position(|name| latex::written(name) == left);
         let name = match output {
             Some(output) => plain.outputs[output].clone(),
             None => format!("t{}", reader.names.len()),
@@ -61,9 +61,10 @@ pub(super) fn read(text: &str) -> Read<ReadBack> {
     let precisions = vec![Precision::Single; program.instrs.len()];
     let contract = Contract::of(text, &comments);
     let mut names = names;
+    let written = names.clone();
     contract.restore(&mut names);
     let (variant, literal) = (None, None);
-    Ok(ReadBack { program, names, precisions, in_half: false, variant, literal, contract })
+    Ok(ReadBack { program, names, written, precisions, in_half: false, variant, literal, contract })
 }
 
 /// Reads `columns: x, y -> a, b`.

@@ -74,10 +74,11 @@ pub(super) fn read(text: &str) -> Read<ReadBack> {
     use_counts(&program, &mut counts);
     let program = effective(&program);
     let mut names = Names { inputs: reader.inputs, outputs };
+    let written = names.clone();
     contract.restore(&mut names);
     let precisions = vec![Precision::Single; program.instrs.len()];
     let (variant, literal) = (None, None);
-    Ok(ReadBack { program, names, precisions, in_half: false, variant, literal, contract })
+    Ok(ReadBack { program, names, written, precisions, in_half: false, variant, literal, contract })
 }
 
 struct Graph<'a, 'input> {

@@ -10,17 +10,21 @@ mod call;
 mod contract;
 mod declaration;
 mod expression;
+mod file;
 mod latex;
 mod lex;
 mod materialx;
+mod over;
 mod spelled;
 mod statement;
 mod types;
 
-pub(super) use contract::name_line;
 pub use contract::{Stated, StatedError, formula_line};
+pub(super) use contract::{let_line, name_line};
+pub use file::{language_of, read_file};
+pub use over::Over;
 
-use super::{Language, Syntax};
+use super::{Head, Language, Parameter, Syntax};
 use crate::eval::{Arithmetic, Half};
 use crate::op::{MAX_ARITY, Op};
 use crate::program::{Arg, Draft, Names, Program, effective, place, pointed, use_counts};
@@ -70,6 +74,8 @@ pub struct ReadBack {
     pub program: Program,
     /// The names of the columns; those that are written differently are restored.
     pub names: Names,
+    /// The names as they are written.
+    pub written: Names,
     /// The precision of each instruction.
     pub precisions: Vec<Precision>,
     /// True for a function of halves: its arguments and outputs are halves.
@@ -90,7 +96,24 @@ impl ReadBack {
     /// be read; or if there are two.
     pub fn stated(&self, outputs: &[String]) -> Result<Option<Stated>, StatedError> {
         let names = Names { inputs: self.names.inputs.clone(), outputs: outputs.to_vec() };
-        self.contract.formula(&names)
+        self.stated_over(&names)
+    }
+
+    /// Returns the formula that the comments state over these columns.
+    ///
+    /// # Errors
+    /// As [`ReadBack::stated`].
+    pub fn stated_over(&self, names: &Names) -> Result<Option<Stated>, StatedError> {
+        self.contract.formula(names)
+    }
+
+    /// Returns what the comments say of columns that are no parameters, and of results that are no
+    /// columns.
+    ///
+    /// # Errors
+    /// [`CallError`](super::CallError) if two say something of the same.
+    pub fn lets(&self) -> Result<super::Lets, super::CallError> {
+        super::Lets::parse(self.contract.lets())
     }
 
     /// Evaluates the function in its own precision, halves where it has them.
@@ -154,6 +177,26 @@ fn read_literal(language: Language, text: &str) -> Read<ReadBack> {
     read_function(language, syntax, text, &lexed, 0)
 }
 
+/// Reads a function's head: `vec2 EnvDFG(float roughness, float nov)`. Returns it, and whether it is
+/// of halves.
+///
+/// # Errors
+/// [`ReadError`] where the text is no head in the language, or has a name that means something in
+/// it.
+pub fn read_head(language: Language, text: &str) -> Result<(Head, bool), ReadError> {
+    let Some(syntax) = language.syntax().filter(|_| language != Language::Latex) else {
+        let message = format!("{language} has no functions with heads");
+        return Err(ReadError::at(text, 0, message));
+    };
+    let code = text.trim_end().trim_end_matches(['{', ';', ':']);
+    let lexed = lex(language, &syntax.readable, code)?;
+    let mut reader = Reader::new(language, syntax, code, &lexed, 0);
+    reader.head_alone()?;
+    let Reader { function, parameters, returned, .. } = reader;
+    let head = Head { function, parameters, returned, columns: Vec::new() };
+    Ok((head, reader.of == Type::Half))
+}
+
 /// Reads the function that begins with the token of this index, and its variant behind it.
 fn read_function(
     language: Language,
@@ -162,25 +205,7 @@ fn read_function(
     lexed: &Lexed,
     first: usize,
 ) -> Read<ReadBack> {
-    let mut reader = Reader {
-        language,
-        syntax,
-        half: language.half_syntax(),
-        text,
-        tokens: &lexed.tokens,
-        next: first,
-        depth: 0,
-        draft: Draft::default(),
-        precisions: Vec::new(),
-        values: HashMap::new(),
-        function: String::new(),
-        of: Type::Single,
-        local: Type::Single,
-        returned: None,
-        outs: Vec::new(),
-        closes_a_call: false,
-        structure: None,
-    };
+    let mut reader = Reader::new(language, syntax, text, lexed, first);
     let names = reader.function()?;
     let variant = match reader.variant() {
         Some(_) => Some(Box::new(read_function(language, syntax, text, lexed, reader.next)?)),
@@ -246,6 +271,7 @@ struct Reader<'a> {
     function: String,
     /// The type of the function's parameters and outputs.
     of: Type,
+    parameters: Vec<Parameter>,
     /// The type of the local whose value is read.
     local: Type,
     /// The number of outputs it returns, if its head says so.
@@ -259,6 +285,37 @@ struct Reader<'a> {
 
 type Read<T> = Result<T, ReadError>;
 
+impl<'a> Reader<'a> {
+    fn new(
+        language: Language,
+        syntax: &'static Syntax,
+        text: &'a str,
+        lexed: &'a Lexed,
+        first: usize,
+    ) -> Reader<'a> {
+        Reader {
+            language,
+            syntax,
+            half: language.half_syntax(),
+            text,
+            tokens: &lexed.tokens,
+            next: first,
+            depth: 0,
+            draft: Draft::default(),
+            precisions: Vec::new(),
+            values: HashMap::new(),
+            function: String::new(),
+            of: Type::Single,
+            local: Type::Single,
+            parameters: Vec::new(),
+            returned: None,
+            outs: Vec::new(),
+            closes_a_call: false,
+            structure: None,
+        }
+    }
+}
+
 impl Reader<'_> {
     fn finished(self, mut names: Names, comments: &[Comment]) -> Read<ReadBack> {
         let text = self.text;
@@ -269,11 +326,12 @@ impl Reader<'_> {
         let kept = self.precisions.iter().zip(&counts).filter(|(_, count)| **count > 0);
         let precisions = kept.map(|(precision, _)| *precision).collect();
         let contract = Contract::of(text, comments);
+        let written = names.clone();
         contract.restore(&mut names);
         let in_half = self.of == Type::Half;
         let program = effective(&program);
         let (variant, literal) = (None, None);
-        Ok(ReadBack { program, names, precisions, in_half, variant, literal, contract })
+        Ok(ReadBack { program, names, written, precisions, in_half, variant, literal, contract })
     }
 
     fn peek(&self) -> Option<&Token> {

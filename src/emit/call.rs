@@ -1,0 +1,419 @@
+//! A program under another head: its inputs by other names, in another order, as components of
+//! vectors, or computed from what is given; its outputs as what a caller expects.
+
+use super::read::{let_line, name_line};
+use super::signature::{Head, Signature};
+use crate::program::{Arg, Draft, Names, ParseError, Program, effective, parse};
+use crate::suggest::did_you_mean;
+
+/// What is said of inputs and results: `alpha = roughness*roughness` of a column, over parameters;
+/// `return.x = bias` or `energy = scale + bias` of a result, over columns and parameters.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Lets(Vec<(String, String)>);
+
+/// A program as it is called.
+#[derive(Clone, Debug)]
+pub struct Call {
+    /// The program, over the components of the parameters.
+    pub program: Program,
+    /// The names of these components and of the results.
+    pub names: Names,
+    /// The head.
+    pub signature: Signature,
+    /// The comment lines that say which column each component is, or how it is made.
+    pub comments: Vec<String>,
+}
+
+/// A head that does not fit the program.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+#[allow(missing_docs, reason = "each message names its fields")]
+pub enum CallError {
+    /// A statement without `=`.
+    #[error("`{text}`: expected `name = expression`, as in `alpha = roughness*roughness`")]
+    NoStatement { text: String },
+    /// Two statements of one name.
+    #[error("`{name}` is given twice")]
+    Twice { name: String },
+    /// A column that no parameter is.
+    #[error(
+        "nothing says what `{column}` is: the parameters are {parameters}{hint}; rename one, or say it by \
+         `--let \"{column} = …\"`"
+    )]
+    NoParameter { column: String, parameters: String, hint: String },
+    /// A statement about something else than a column or a result.
+    #[error("`{target}` is neither an input ({inputs}) nor a result ({results}){hint}")]
+    NoTarget { target: String, inputs: String, results: String, hint: String },
+    /// An expression that cannot be read.
+    #[error("`{target} = {text}`: {error}")]
+    Expression { target: String, text: String, error: Box<ParseError> },
+    /// A parameter that results leave by, which is called like no output.
+    #[error(
+        "nothing says what leaves by `{name}`: the outputs are {outputs}; say it by `--let \"{name} = …\"`"
+    )]
+    NoOutput { name: String, outputs: String },
+    /// Other numbers of results than of outputs.
+    #[error(
+        "{returned} values are returned, but {outputs} outputs are left for them ({names}); say what they \
+         are, as by `--let \"return.x = {first}\"`"
+    )]
+    Returned { returned: usize, outputs: usize, names: String, first: String },
+}
+
+impl Lets {
+    /// Splits texts into statements, at `;` and line ends.
+    ///
+    /// # Errors
+    /// [`CallError::NoStatement`], [`CallError::Twice`].
+    pub fn parse(texts: &[String]) -> Result<Lets, CallError> {
+        let mut lets = Lets::default();
+        let statements = texts.iter().flat_map(|text| text.split([';', '\n']));
+        for text in statements.map(str::trim).filter(|text| !text.is_empty()) {
+            let no_statement = || CallError::NoStatement { text: text.to_owned() };
+            let (target, expression) = text.split_once('=').ok_or_else(no_statement)?;
+            let (target, expression) = (target.trim(), expression.trim());
+            if target.is_empty() || expression.is_empty() {
+                return Err(no_statement());
+            }
+            lets.add(target, expression.to_owned())?;
+        }
+        Ok(lets)
+    }
+
+    /// Adds a statement.
+    ///
+    /// # Errors
+    /// [`CallError::Twice`].
+    pub fn add(&mut self, target: &str, expression: String) -> Result<(), CallError> {
+        if self.of(target).is_some() {
+            return Err(CallError::Twice { name: target.to_owned() });
+        }
+        self.0.push((target.to_owned(), expression));
+        Ok(())
+    }
+
+    /// Sets the expression of a name.
+    pub fn set(&mut self, target: &str, expression: String) {
+        self.0.retain(|(name, _)| name != target);
+        self.0.push((target.to_owned(), expression));
+    }
+
+    /// Returns the expression of a name.
+    pub fn of(&self, target: &str) -> Option<&str> {
+        self.0.iter().find(|(name, _)| name == target).map(|(_, expression)| &**expression)
+    }
+
+    /// Returns true if there are none.
+    pub fn is_empty(&self) -> bool {
+        self.0.is_empty()
+    }
+
+    pub(super) fn lines(&self) -> impl Iterator<Item = String> {
+        self.0.iter().map(|(target, expression)| let_line(target, expression))
+    }
+}
+
+/// Puts the program under a head. `returned` is the number of values that it returns, or none if it
+/// returns all outputs that nothing else takes.
+///
+/// # Errors
+/// [`CallError`] says what does not fit, and how it can be said.
+pub fn call(program: &Program, names: &Names, head: &Head, lets: &Lets) -> Result<Call, CallError> {
+    let components: Vec<String> = head.components(false);
+    let mut draft = Draft { inputs: components.len(), ..Draft::default() };
+    let (inputs, mut comments) = inputs(&mut draft, program, names, head, lets)?;
+    let outputs = draft.append(program, &inputs);
+    let targets = targets(head, names, lets)?;
+    let scope = Scope { components: &components, names, inputs: &inputs, outputs: &outputs };
+    let mut results = Vec::new();
+    for target in &targets {
+        results.push(match target {
+            Target::Output(output) => {
+                draft.outputs.push(outputs[*output]);
+                names.outputs[*output].clone()
+            }
+            Target::Let(name) => {
+                let value = scope.value(&mut draft, name, lets.of(name).unwrap_or_default())?;
+                draft.outputs.push(value);
+                name.clone()
+            }
+        });
+    }
+    known_targets(lets, names, head, &targets)?;
+    comments.extend(lets.lines());
+    let out = head.parameters.iter().filter(|parameter| parameter.out);
+    let returned = targets.len() - out.map(|parameter| parameter.size).sum::<usize>();
+    let signature = Signature {
+        function: head.function.clone(),
+        parameters: head.parameters.clone(),
+        returned,
+    };
+    let program = effective(&Program::verify(draft).expect("programs make a program"));
+    let names = Names { inputs: components, outputs: results };
+    Ok(Call { program, names, signature, comments })
+}
+
+/// What a result is.
+#[derive(Clone, Debug, PartialEq)]
+enum Target {
+    Output(usize),
+    Let(String),
+}
+
+/// Returns the value of each column, and comments on those that are called otherwise.
+fn inputs(
+    draft: &mut Draft,
+    program: &Program,
+    names: &Names,
+    head: &Head,
+    lets: &Lets,
+) -> Result<(Vec<Arg>, Vec<String>), CallError> {
+    let used = reads(program);
+    let components = &head.components(false);
+    let (mut values, mut comments) = (Vec::new(), Vec::new());
+    for (i, column) in names.inputs.iter().enumerate() {
+        if let Some(text) = lets.of(column) {
+            let given = Names { inputs: components.to_vec(), outputs: Vec::new() };
+            let scope = Scope { components, names: &given, inputs: &[], outputs: &[] };
+            values.push(scope.value(draft, column, text)?);
+            continue;
+        }
+        let known = head.columns.iter().find(|(known, _)| known == column);
+        let known = known.and_then(|(_, component)| place_of(component, components));
+        let Some(place) = known.or_else(|| component_of(column, components)) else {
+            // What nothing reads needs no value.
+            if !used[i] {
+                values.push(draft.constant(0.0));
+                continue;
+            }
+            return Err(CallError::NoParameter {
+                column: column.clone(),
+                parameters: listed(components),
+                hint: did_you_mean(column, components.iter().map(String::as_str)),
+            });
+        };
+        values.push(Arg::Input(place as u16));
+        if components[place] != *column {
+            comments.push(name_line(&components[place], column));
+        }
+    }
+    Ok((values, comments))
+}
+
+fn reads(program: &Program) -> Vec<bool> {
+    let mut read = vec![false; program.inputs];
+    let args = program.instrs.iter().flat_map(|instr| instr.args()).chain(&program.outputs);
+    for arg in args {
+        if let Arg::Input(i) = arg {
+            read[usize::from(*i)] = true;
+        }
+    }
+    read
+}
+
+fn place_of(name: &str, components: &[String]) -> Option<usize> {
+    components.iter().position(|component| component == name)
+}
+
+/// Returns the component that is called as the column, or as such a quantity is called elsewhere.
+pub(super) fn component_of(column: &str, components: &[String]) -> Option<usize> {
+    place_of(column, components).or_else(|| {
+        let mut alike =
+            components.iter().enumerate().filter(|(_, name)| quantity(name) == quantity(column));
+        let first = alike.next().map(|(place, _)| place);
+        first.filter(|_| alike.next().is_none())
+    })
+}
+
+/// Returns the column that a parameter of this name is, if it is called as such a quantity is
+/// elsewhere: `n_dot_v` for `NoV`.
+pub fn column_called(parameter: &str, columns: &[String]) -> Option<String> {
+    component_of(parameter, columns).map(|place| columns[place].clone())
+}
+
+/// Returns one name for the names that engines have for a quantity: `n_dot_v`, `NoV`, `dotNV`.
+fn quantity(name: &str) -> String {
+    let plain: String = name.to_ascii_lowercase().chars().filter(|c| *c != '_').collect();
+    let plain = plain.strip_prefix("perceptual").map_or(plain.clone(), str::to_owned);
+    match plain.strip_prefix("dot").map(str::as_bytes) {
+        Some([a, b]) => format!("{}o{}", char::from(*a), char::from(*b)),
+        _ => plain.replace("dot", "o"),
+    }
+}
+
+/// Returns what each result is: first what is returned, then what leaves by parameters.
+fn targets(head: &Head, names: &Names, lets: &Lets) -> Result<Vec<Target>, CallError> {
+    let outs = head.components(true);
+    let mut left: Vec<usize> = (0..names.outputs.len()).collect();
+    let mut by_parameters = Vec::new();
+    for name in &outs {
+        by_parameters.push(match (lets.of(name), component_of(name, &names.outputs)) {
+            (Some(_), _) => Target::Let(name.clone()),
+            (None, Some(output)) => {
+                left.retain(|other| *other != output);
+                Target::Output(output)
+            }
+            (None, None) => {
+                let outputs = listed(&names.outputs);
+                return Err(CallError::NoOutput { name: name.clone(), outputs });
+            }
+        });
+    }
+    let named = |count: usize| {
+        let names = head.returned_names(count);
+        names.into_iter().map(|name| (lets.of(&name).is_some(), name)).collect::<Vec<_>>()
+    };
+    let count = head.returned.unwrap_or_else(|| {
+        let said = (1..=4).rev().find(|&n| named(n).iter().all(|(said, _)| *said));
+        said.unwrap_or(left.len())
+    });
+    let mut returned = Vec::new();
+    let mut rest = left.iter();
+    for (said, name) in named(count) {
+        match (said, rest.next()) {
+            (true, _) => {
+                // Where one is said by a name, all others are in the order of what is left.
+                returned.push(Target::Let(name));
+            }
+            (false, Some(&output)) => returned.push(Target::Output(output)),
+            (false, None) => return Err(wrong_count(count, &left, names)),
+        }
+    }
+    let said_none = returned.iter().all(|target| matches!(target, Target::Output(_)));
+    if said_none && count != left.len() && !(count == 0 && head.returned == Some(0)) {
+        return Err(wrong_count(count, &left, names));
+    }
+    returned.extend(by_parameters);
+    Ok(returned)
+}
+
+fn wrong_count(returned: usize, left: &[usize], names: &Names) -> CallError {
+    let left_names: Vec<String> = left.iter().map(|&i| names.outputs[i].clone()).collect();
+    CallError::Returned {
+        returned,
+        outputs: left.len(),
+        names: listed(&left_names),
+        first: names.outputs.first().cloned().unwrap_or_default(),
+    }
+}
+
+/// Refuses statements about names that are nothing here.
+fn known_targets(
+    lets: &Lets,
+    names: &Names,
+    head: &Head,
+    targets: &[Target],
+) -> Result<(), CallError> {
+    for (target, _) in &lets.0 {
+        let is_input = names.inputs.contains(target);
+        if is_input || targets.contains(&Target::Let(target.clone())) {
+            continue;
+        }
+        let count = targets.len() - head.components(true).len();
+        let mut results = head.returned_names(count);
+        results.extend(head.components(true));
+        let known = names.inputs.iter().chain(&results).map(String::as_str);
+        return Err(CallError::NoTarget {
+            target: target.clone(),
+            hint: did_you_mean(target, known),
+            inputs: listed(&names.inputs),
+            results: listed(&results),
+        });
+    }
+    Ok(())
+}
+
+fn listed(names: &[String]) -> String {
+    match names {
+        [] => "none".to_owned(),
+        names => names.join(", "),
+    }
+}
+
+/// What an expression may read.
+struct Scope<'a> {
+    components: &'a [String],
+    names: &'a Names,
+    /// The values of the columns; empty where an expression is of parameters alone.
+    inputs: &'a [Arg],
+    outputs: &'a [Arg],
+}
+
+impl Scope<'_> {
+    /// Appends an expression to the draft, and returns its value.
+    fn value(&self, draft: &mut Draft, target: &str, text: &str) -> Result<Arg, CallError> {
+        let mut all: Vec<(String, Arg)> = Vec::new();
+        let components = (0..).map(Arg::Input);
+        let columns = self.names.outputs.iter().zip(self.outputs.iter().copied());
+        let known = columns
+            .chain(self.components.iter().zip(components))
+            .chain(self.names.inputs.iter().zip(self.inputs.iter().copied()));
+        for (name, value) in known {
+            if !all.iter().any(|(known, _)| known == name) {
+                all.push((name.clone(), value));
+            }
+        }
+        let names = Names {
+            inputs: all.iter().map(|(name, _)| plain(name)).collect(),
+            outputs: vec!["result_of_let".to_owned()],
+        };
+        let failed = |error| CallError::Expression {
+            target: target.to_owned(),
+            text: text.to_owned(),
+            error: Box::new(error),
+        };
+        let text = with_components(text, self.components);
+        let program = parse(&format!("result_of_let = {text}"), &names).map_err(failed)?;
+        let values: Vec<Arg> = all.iter().map(|(_, value)| *value).collect();
+        Ok(draft.append(&program, &values)[0])
+    }
+}
+
+/// Returns an expression over components.
+pub(super) fn value_over(
+    target: &str,
+    text: &str,
+    components: &[String],
+) -> Result<Program, CallError> {
+    let names = Names { inputs: components.to_vec(), outputs: Vec::new() };
+    let scope = Scope { components, names: &names, inputs: &[], outputs: &[] };
+    let mut draft = Draft { inputs: components.len(), ..Draft::default() };
+    let value = scope.value(&mut draft, target, text)?;
+    draft.outputs.push(value);
+    Ok(Program::verify(draft).expect("an expression makes a program"))
+}
+
+/// Returns a component's name without a dot, as formula text has none.
+fn plain(component: &str) -> String {
+    component.replace('.', "__")
+}
+
+/// Writes components without dots, and `dot(a, b)` as the sum that it is.
+fn with_components(text: &str, components: &[String]) -> String {
+    let mut text = text.to_owned();
+    while let Some((start, end, sum)) = dot_product(&text, components) {
+        text.replace_range(start..end, &sum);
+    }
+    let mut longest: Vec<&String> = components.iter().filter(|name| name.contains('.')).collect();
+    longest.sort_by_key(|name| std::cmp::Reverse(name.len()));
+    for name in longest {
+        text = text.replace(name.as_str(), &plain(name));
+    }
+    text
+}
+
+/// Finds `dot(a, b)` of two vectors among the parameters.
+fn dot_product(text: &str, components: &[String]) -> Option<(usize, usize, String)> {
+    let start = text.find("dot(")?;
+    let end = start + text[start..].find(')')?;
+    let (a, b) = text[start + 4..end].split_once(',')?;
+    let of = |vector: &str| -> Vec<&String> {
+        let prefix = format!("{}.", vector.trim());
+        components.iter().filter(|name| name.starts_with(&prefix)).collect()
+    };
+    let (a, b) = (of(a), of(b));
+    if a.is_empty() || a.len() != b.len() {
+        return None;
+    }
+    let products: Vec<String> = a.iter().zip(&b).map(|(a, b)| format!("{a}*{b}")).collect();
+    Some((start, end + 1, format!("({})", products.join(" + "))))
+}

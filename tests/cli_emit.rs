@@ -1,0 +1,234 @@
+//! `lgp emit`: engines, signatures, and what `lgp verify` makes of them.
+
+mod command;
+
+use command::{lgp_here, text};
+use lgp::emit::Engine;
+use std::path::Path;
+use std::process::Output;
+
+const RUN: &str = "tests/fixtures/dfg";
+const DATA: &str = "datasets/dfg.bin";
+
+/// Emits to a file of the folder, and verifies that.
+fn emitted_and_verified(folder: &Path, file: &str, form: &[&str]) -> (String, Output) {
+    let path = folder.join(file);
+    let output = ["-o", path.to_str().unwrap()];
+    let emit = lgp_here(&[&["emit", RUN, "--max-cost", "12"], form, &output].concat());
+    assert!(emit.status.success(), "{form:?}: {}", text(&emit.stderr));
+    let code = std::fs::read_to_string(&path).unwrap();
+    assert!(code.is_ascii(), "{code}");
+    let verify = lgp_here(&["verify", path.to_str().unwrap(), DATA, "--max-error", "0.012"]);
+    (code, verify)
+}
+
+fn is_verified(file: &str, form: &[&str], says: &str) -> String {
+    let folder = tempfile::tempdir().unwrap();
+    let (code, verify) = emitted_and_verified(folder.path(), file, form);
+    assert_eq!(verify.status.code(), Some(0), "{}\n{code}", text(&verify.stderr));
+    assert!(text(&verify.stdout).contains(says), "{}\n{code}", text(&verify.stdout));
+    code
+}
+
+const AS_COMMENTED: &str = "computes the formula in its comment";
+
+#[test]
+fn a_file_for_each_engine_is_verified() {
+    for engine in Engine::ALL {
+        let file = format!("dfg.{}", engine.extension());
+        let of_engine = ["--for", engine.name()];
+        is_verified(&file, &of_engine, AS_COMMENTED);
+        is_verified(&file, &[&of_engine[..], &["--clamp-inputs"]].concat(), AS_COMMENTED);
+        let bare = is_verified(
+            &file,
+            &[&of_engine[..], &["--no-comments"]].concat(),
+            "no formula in its comment",
+        );
+        assert!(!bare.contains("// "), "{bare}");
+        let half = [&of_engine[..], &["--half"]].concat();
+        match engine.has_halves() {
+            true => drop(is_verified(&file, &half, AS_COMMENTED)),
+            false => {
+                let output = lgp_here(&[&["emit", RUN], &half[..]].concat());
+                assert_eq!(output.status.code(), Some(2), "{engine}");
+                assert!(text(&output.stderr).contains("has no halves"), "{engine}");
+            }
+        }
+    }
+}
+
+#[test]
+fn a_function_under_a_given_head_is_verified() {
+    for (file, form, line) in [
+        (
+            "a.glsl",
+            &["--lang", "glsl", "--signature", "vec2 EnvDFG(float roughness, float nov)"][..],
+            "vec2 EnvDFG(float roughness, float nov) {",
+        ),
+        (
+            "b.glsl",
+            &[
+                "--lang",
+                "glsl",
+                "--signature",
+                "vec2 EnvDFG(vec2 uv)",
+                "--let",
+                "n_dot_v = uv.y; roughness = sqrt(uv.x)",
+                "--let",
+                "return.x = bias; return.y = scale",
+            ],
+            "vec2 EnvDFG(vec2 uv) {",
+        ),
+        (
+            "c.hlsl",
+            &[
+                "--lang",
+                "hlsl",
+                "--signature",
+                "float3 Env(float3 N, float3 V, float rough, float f0)",
+                "--let",
+                "n_dot_v = saturate(dot(N, V))",
+                "--let",
+                "roughness = rough",
+                "--let",
+                "return.x = f0*scale + bias; return.y = scale + bias; return.z = 0",
+            ],
+            "saturate(N.x*V.x + N.y*V.y + N.z*V.z)",
+        ),
+        (
+            "d.wgsl",
+            &[
+                "--lang",
+                "wgsl",
+                "--half",
+                "--signature",
+                "fn F_AB(perceptual_roughness: f16, NdotV: f16) -> vec2<f16>",
+            ],
+            "fn F_AB(perceptual_roughness: f16, NdotV: f16) -> vec2<f16> {",
+        ),
+        (
+            "e.metal",
+            &[
+                "--lang",
+                "msl",
+                "--signature",
+                "void f(float roughness, float n_dot_v, thread float2 &dfg)",
+                "--let",
+                "dfg.x = bias; dfg.y = scale + bias",
+            ],
+            "    dfg = float2(",
+        ),
+        (
+            "f.hpp",
+            &[
+                "--lang",
+                "cpp",
+                "--clamp-inputs",
+                "--signature",
+                "void EnvDFG(float roughness, float nov, float &scale, float &bias)",
+            ],
+            "inline void EnvDFG(",
+        ),
+        (
+            "g.py",
+            &["--lang", "python", "--signature", "env(roughness, nov)"],
+            "def env(roughness, nov):",
+        ),
+        ("h.tsl.js", &["--lang", "tsl", "--name", "envDFG"], "export const envDFG = Fn("),
+        (
+            "i.mtlx",
+            &["--lang", "materialx", "--name", "env"],
+            "<nodedef name=\"ND_env\" node=\"env\">",
+        ),
+        ("j.rs", &["--lang", "rust", "--name", "env", "--clamp-inputs"], "pub fn env("),
+    ] {
+        let code = is_verified(file, form, AS_COMMENTED);
+        assert!(code.contains(line), "{code}");
+    }
+}
+
+#[test]
+fn one_output_is_returned_by_its_name() {
+    let code = is_verified(
+        "bias.glsl",
+        &[
+            "--lang",
+            "glsl",
+            "--signature",
+            "float Env(float roughness, float nov, float f0)",
+            "--let",
+            "return = f0*scale + bias",
+        ],
+        AS_COMMENTED,
+    );
+    assert!(code.contains("// let: return = f0*scale + bias"), "{code}");
+    assert!(code.contains("as it is called here: 13 cycles"), "{code}");
+}
+
+#[test]
+fn a_changed_conversion_or_number_is_found() {
+    let folder = tempfile::tempdir().unwrap();
+    let form = [
+        "--lang",
+        "glsl",
+        "--signature",
+        "vec2 f(float alpha, float nov)",
+        "--let",
+        "roughness = sqrt(alpha)",
+    ];
+    let (code, _) = emitted_and_verified(folder.path(), "f.glsl", &form);
+    let path = folder.path().join("f.glsl");
+    for (from, to) in [("sqrt(alpha);", "alpha;"), ("16.0", "16.1")] {
+        assert!(code.contains(from), "{code}");
+        std::fs::write(&path, code.replace(from, to)).unwrap();
+        let verify = lgp_here(&["verify", path.to_str().unwrap(), DATA, "--max-error", "1"]);
+        assert_eq!(verify.status.code(), Some(4), "{}", text(&verify.stdout));
+        assert!(text(&verify.stderr).contains("does not compute the formula"), "{from}");
+    }
+}
+
+/// Both functions of a file in two precisions are looked at.
+#[test]
+fn a_changed_function_of_halves_is_found() {
+    let folder = tempfile::tempdir().unwrap();
+    let (code, _) = emitted_and_verified(folder.path(), "dfg.hlsl", &["--for", "unity"]);
+    let path = folder.path().join("dfg.hlsl");
+    std::fs::write(&path, code.replace("half(16.0)", "half(17.0)")).unwrap();
+    let verify = lgp_here(&["verify", path.to_str().unwrap(), DATA, "--max-error", "1"]);
+    assert_eq!(verify.status.code(), Some(4), "{}", text(&verify.stdout));
+}
+
+#[test]
+fn what_does_not_fit_is_refused_with_its_remedy() {
+    let folder = tempfile::tempdir().unwrap();
+    let file = folder.path().join("old.hlsl");
+    std::fs::write(&file, "old").unwrap();
+    for (form, expected) in [
+        (&["--signature", "float2 f(float rough, float nov)"][..], "--let \"roughness = …\""),
+        (&["--signature", "float3 f(float roughness, float nov)"], "3 values are returned"),
+        (&["--signature", "half2 f(half roughness, half nov)"], "give --half or --half-error"),
+        (&["--signature", "float2 sample(float roughness, float nov)"], "`sample` means something"),
+        (&["--signature", "float2 f(float roughness, float nov"], "expected `,`"),
+        (&["--signature", "float2 f(double roughness, float nov)"], "cannot be the type"),
+        (&["--let", "alpha = 3"], "neither an input (n_dot_v, roughness) nor a result"),
+        (&["--let", "roughness = alpha*alpha"], "`alpha`"),
+        (&["--let", "roughness"], "expected `name = expression`"),
+        (&["--let", "roughness = n_dot_v; roughness = 1"], "given twice"),
+        (&["--name", "2x"], "no name of a function in hlsl"),
+        (&["--name", "saturate"], "no name of a function in hlsl"),
+        (
+            &["--signature", "void f(float roughness, float nov, out float energy)"],
+            "leaves by `energy`",
+        ),
+    ] {
+        let output = ["-o", file.to_str().unwrap()];
+        let emit = lgp_here(&[&["emit", RUN, "--lang", "hlsl"], form, &output].concat());
+        let message = text(&emit.stderr);
+        assert_eq!(emit.status.code(), Some(2), "{form:?}: {message}");
+        assert!(message.contains(expected), "{form:?}: {message}");
+        assert_eq!(std::fs::read_to_string(&file).unwrap(), "old");
+    }
+    let unknown = lgp_here(&["emit", RUN, "--for", "untiy"]);
+    assert!(text(&unknown.stderr).contains("did you mean `unity`?"), "{}", text(&unknown.stderr));
+    assert_eq!(lgp_here(&["emit", RUN]).status.code(), Some(2));
+}
