@@ -33,7 +33,7 @@ enum Source {
 pub(super) fn written(snippet: &Snippet, function: &str) -> String {
     let Snippet { program, names, .. } = *snippet;
     let signature = Signature::of(function, names, false);
-    let mut naming = Naming::new(reserved, &signature, &names.outputs);
+    let mut naming = Naming::new(reserved, str::to_owned, &signature, &names.outputs);
     let head = naming.head(false);
     let mut graph = Graph { lines: Vec::new(), naming: &mut naming };
     let mut counts = Vec::new();

@@ -171,7 +171,7 @@ fn code(syntaxes: Syntaxes, snippet: &Snippet) -> Code {
     assert_eq!(names.outputs.len(), program.outputs.len(), "a name for each output");
     let usual = Signature::of(&snippet.function_name(), names, syntax.outputs_by_parameters);
     let signature = snippet.signature.unwrap_or(&usual);
-    let mut naming = Naming::new(syntax.reserved, signature, &names.outputs);
+    let mut naming = Naming::new(syntax.reserved, syntax.written, signature, &names.outputs);
     let head = naming.head(is_arithmetic(program));
     let mut comments: Vec<String> = Vec::new();
     if let Some(header) = header.filter(|_| !syntax.comment.is_empty()) {

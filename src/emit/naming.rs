@@ -8,6 +8,8 @@ use std::collections::HashSet;
 /// The names of one function, and those already taken.
 pub(super) struct Naming<'a> {
     reserved: fn(&str) -> bool,
+    /// How a name looks: two names must not look alike.
+    look: fn(&str) -> String,
     taken: HashSet<String>,
     signature: &'a Signature,
     outputs: &'a [String],
@@ -19,11 +21,13 @@ pub(super) struct Naming<'a> {
 impl<'a> Naming<'a> {
     pub fn new(
         reserved: fn(&str) -> bool,
+        look: fn(&str) -> String,
         signature: &'a Signature,
         outputs: &'a [String],
     ) -> Naming<'a> {
         let (taken, written) = (HashSet::new(), Vec::new());
-        let mut naming = Naming { reserved, taken, signature, outputs, written, temporaries: 0 };
+        let mut naming =
+            Naming { reserved, look, taken, signature, outputs, written, temporaries: 0 };
         // A renamed name must not take one that another may keep.
         let kept: Vec<bool> = naming.wanted().iter().map(|name| naming.keep(name)).collect();
         naming.written = (naming.wanted().iter().zip(kept))
@@ -109,7 +113,7 @@ impl<'a> Naming<'a> {
 
     /// Takes `name` as it is, and returns true, if that is allowed.
     fn keep(&mut self, name: &str) -> bool {
-        is_identifier(name) && !(self.reserved)(name) && self.taken.insert(name.to_owned())
+        is_identifier(name) && !(self.reserved)(name) && self.taken.insert((self.look)(name))
     }
 
     fn rename(&mut self, name: &str) -> String {
@@ -165,7 +169,8 @@ mod tests {
     fn what_is_reserved_by_its_beginning_is_renamed() {
         let names = Names::new(["gl_", "gl__", "gl_2"], ["gl"]);
         let signature = Signature::of("gl", &names, false);
-        let naming = Naming::new(|name| name.starts_with("gl_"), &signature, &names.outputs);
+        let naming =
+            Naming::new(|name| name.starts_with("gl_"), str::to_owned, &signature, &names.outputs);
         assert_eq!(naming.written, ["gl", "x_gl", "x_gl_", "x_gl_2", "x_gl_3"]);
     }
 
@@ -174,7 +179,7 @@ mod tests {
         let names = Names::new(["cos", "cos_", "_", ""], ["cos_2", "cos"]);
         let reserved = |name: &str| name == "cos" || name == "_";
         let signature = Signature::of("cos", &names, false);
-        let naming = Naming::new(reserved, &signature, &names.outputs);
+        let naming = Naming::new(reserved, str::to_owned, &signature, &names.outputs);
         assert_eq!(naming.written, ["cos_3", "cos_4", "cos_", "x", "x_", "cos_2", "cos_5"]);
     }
 }

@@ -6,6 +6,7 @@ use crate::emit::{Language, Snippet, emit, emit_half};
 use crate::op::{MAX_ARITY, Op};
 use crate::program::{Arg, Draft, Names, Program, use_counts};
 use half::f16;
+use std::sync::OnceLock;
 
 /// The code that spells an operation: its last instruction gives the result.
 struct Pattern {
@@ -17,7 +18,7 @@ struct Pattern {
 impl ReadBack {
     /// Puts operations in the place of what spells them; none if there are none.
     pub(super) fn with_operations(&self, language: Language) -> Option<ReadBack> {
-        let patterns = patterns(language);
+        let patterns = known_patterns(language);
         let Draft { inputs, instrs, consts, outputs } = &*self.program;
         let mut draft = Draft { inputs: *inputs, consts: consts.clone(), ..Draft::default() };
         let mut moved: Vec<Arg> = Vec::with_capacity(instrs.len());
@@ -59,6 +60,14 @@ impl ReadBack {
         let program = crate::program::effective(&Program::verify(draft).ok()?);
         Some(ReadBack { program, precisions, literal: None, ..self.clone() })
     }
+}
+
+/// Returns the patterns of a language, which are made once.
+fn known_patterns(language: Language) -> &'static [Pattern] {
+    static KNOWN: [OnceLock<Vec<Pattern>>; Language::ALL.len()] =
+        [const { OnceLock::new() }; Language::ALL.len()];
+    let place = Language::ALL.iter().position(|&other| other == language);
+    KNOWN[place.expect("every language is listed")].get_or_init(|| patterns(language))
 }
 
 /// Returns the patterns of a language, those of more instructions first.
