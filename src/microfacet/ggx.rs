@@ -39,6 +39,15 @@ pub fn g2_separable<T: Real>(n_dot_v: T, n_dot_l: T, alpha: T) -> T {
     g1(n_dot_v, alpha) * g1(n_dot_l, alpha)
 }
 
+/// Masking and shadowing as products of Schlick's form, `x / (x (1 - k) + k)` with `k = alpha / 2`:
+/// the fit to GGX of Karis, "Real Shading in Unreal Engine 4" (SIGGRAPH 2013 course notes, p. 3),
+/// without its remapping for analytic lights.
+pub fn g2_schlick<T: Real>(n_dot_v: T, n_dot_l: T, alpha: T) -> T {
+    let k = alpha / T::TWO;
+    let g1 = |cosine: T| cosine / (cosine * (T::ONE - k) + k);
+    g1(n_dot_v) * g1(n_dot_l)
+}
+
 /// Masking and shadowing, correlated through the height of the microfacet: `1 / (1 + Λ(v) + Λ(l))`;
 /// 0 if either cosine is 0. `alpha` in [0, 1].
 pub fn g2_correlated<T: Real>(n_dot_v: T, n_dot_l: T, alpha: T) -> T {

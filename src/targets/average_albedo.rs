@@ -58,6 +58,7 @@ pub fn integrate(rule: &TanhSinh, alpha: f64, masking: Masking) -> [f64; 2] {
             let g2 = match masking {
                 Masking::Correlated => ggx::g2_correlated(cosine, n_dot_l, alpha),
                 Masking::Separable => ggx::g2_separable(cosine, n_dot_l, alpha),
+                Masking::Schlick => ggx::g2_schlick(cosine, n_dot_l, alpha),
             };
             let angles = [0.5 * theta_l.from_b, 0.5 * (theta_l.x + theta_v.x)];
             density_over_azimuth(angles, alpha) * g2 * sin_l

@@ -31,25 +31,27 @@ const TOLERANCE: f64 = 1e-9;
 const GRAZING: f64 = 0.001;
 const CORRELATED: &str = "correlated";
 const SEPARABLE: &str = "separable";
+const SCHLICK: &str = "schlick";
 const ROUGHNESS_SQUARED: &str = "roughness^2";
 const ROUGHNESS_FOURTH: &str = "roughness^4";
+const ALPHA_IS_GIVEN: &str = "given";
 
 pub(super) const TARGET: Target = Target {
     name: "dfg",
     description: "split-integral DFG terms of GGX specular: albedo = f0 * scale + bias",
-    columns: "n_dot_v, roughness → scale, bias",
+    columns: "n_dot_v, roughness or alpha → scale, bias",
     parameters: &[
         Parameter {
             name: "masking",
-            description: "Smith's G2: height-correlated (engines today) or separable (older)",
+            description: "Smith's G2: height-correlated (engines today), separable (older), or Schlick's fit to it",
             default: CORRELATED,
-            choices: Choices::OneOf(&[CORRELATED, SEPARABLE]),
+            choices: Choices::OneOf(&[CORRELATED, SEPARABLE, SCHLICK]),
         },
         Parameter {
             name: "alpha",
-            description: "width of the lobe, from perceptual roughness",
+            description: "width of the lobe, from perceptual roughness; given: an input itself",
             default: ROUGHNESS_SQUARED,
-            choices: Choices::OneOf(&[ROUGHNESS_SQUARED, ROUGHNESS_FOURTH]),
+            choices: Choices::OneOf(&[ROUGHNESS_SQUARED, ROUGHNESS_FOURTH, ALPHA_IS_GIVEN]),
         },
         points("64", 1024),
         SAMPLING,
@@ -65,6 +67,8 @@ pub enum Masking {
     Correlated,
     /// Independent ([`ggx::g2_separable`]).
     Separable,
+    /// Independent, and each by Schlick's form ([`ggx::g2_schlick`]).
+    Schlick,
 }
 
 /// The two terms at a point.
@@ -160,6 +164,7 @@ impl View<'_> {
         let g2 = match self.masking {
             Masking::Correlated => ggx::g2_correlated(self.cosine, n_dot_l, self.alpha),
             Masking::Separable => ggx::g2_separable(self.cosine, n_dot_l, self.alpha),
+            Masking::Schlick => ggx::g2_schlick(self.cosine, n_dot_l, self.alpha),
         };
         let weight = g2 * v_dot_h / (n_dot_h * self.cosine);
         (self.shares)(v_dot_h).map(|share| share * weight)
@@ -174,15 +179,22 @@ fn table(recipe: &Recipe) -> Table {
     let rule = TanhSinh::new();
     let masking = match recipe.get("masking") {
         Some(SEPARABLE) => Masking::Separable,
+        Some(SCHLICK) => Masking::Schlick,
         _ => Masking::Correlated,
     };
-    let by_fourth = recipe.get("alpha") == Some(ROUGHNESS_FOURTH);
-    let alpha = move |roughness: f64| {
-        let square = roughness * roughness;
-        if by_fourth { square * square } else { square }
+    let (power, width) = match recipe.get("alpha") {
+        Some(ROUGHNESS_FOURTH) => (4, "roughness"),
+        Some(ALPHA_IS_GIVEN) => (1, "alpha"),
+        _ => (2, "roughness"),
+    };
+    // A fourth power of libm would differ from the square's square in the last place.
+    let alpha = move |width: f64| match power {
+        1 => width,
+        2 => width * width,
+        _ => (width * width) * (width * width),
     };
     let n_dot_v = Axis { least: Some(GRAZING), ..Axis::unit("n_dot_v") };
-    let axes = vec![n_dot_v, Axis::unit("roughness")];
+    let axes = vec![n_dot_v, Axis::unit(width)];
     let outputs = &[("scale", "1"), ("bias", "1")];
     let table = Table::new(recipe, axes, outputs, ALLOWED_ERROR, move |at| {
         let dfg = integrate(&rule, at[0], alpha(at[1]), masking);

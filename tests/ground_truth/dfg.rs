@@ -5,6 +5,7 @@ use lgp::dataset::Dataset;
 use lgp::quadrature::TanhSinh;
 use lgp::targets::Recipe;
 use lgp::targets::dfg::{self, Masking};
+use std::f64::consts::{FRAC_PI_2, PI};
 
 const ACCURACY: f64 = 1e-6;
 
@@ -54,10 +55,47 @@ fn dfg_agrees_with_the_reference_up_to_the_edges() {
     assert!(claimed <= dfg::ALLOWED_ERROR);
 }
 
+/// The same integrals over directions of light, by the trapezoidal rule in azimuth and the midpoint
+/// rule in the polar angle: for wide lobes.
+#[test]
+fn schlick_masking_agrees_with_an_integral_over_light() {
+    const STEPS: usize = 400;
+    let rule = TanhSinh::new();
+    for n_dot_v in [0.1, 0.5, 0.9_f64] {
+        let sin_v = (1.0 - n_dot_v * n_dot_v).sqrt();
+        for alpha in [0.4, 0.7, 1.0_f64] {
+            let [mut scale, mut bias] = [0.0, 0.0];
+            for i in 0..STEPS {
+                let theta = (i as f64 + 0.5) / STEPS as f64 * FRAC_PI_2;
+                let (sin_l, n_dot_l) = theta.sin_cos();
+                for k in 0..STEPS {
+                    let phi = (k as f64 + 0.5) / STEPS as f64 * PI;
+                    let l_dot_v = sin_l * sin_v * phi.cos() + n_dot_l * n_dot_v;
+                    let length = (2.0 + 2.0 * l_dot_v).sqrt();
+                    let n_dot_h = (n_dot_l + n_dot_v) / length;
+                    let v_dot_h = length / 2.0;
+                    let spread = n_dot_h * n_dot_h * (alpha * alpha - 1.0) + 1.0;
+                    let d = alpha * alpha / (PI * spread * spread);
+                    let g = |x: f64| x / (x * (1.0 - alpha / 2.0) + alpha / 2.0);
+                    let brdf_cos = d * g(n_dot_v) * g(n_dot_l) / (4.0 * n_dot_v);
+                    let fresnel = (1.0 - v_dot_h).powi(5);
+                    // Both halves of the azimuth, and the steps.
+                    let weight = 2.0 * (FRAC_PI_2 / STEPS as f64) * (PI / STEPS as f64) * sin_l;
+                    scale += brdf_cos * (1.0 - fresnel) * weight;
+                    bias += brdf_cos * fresnel * weight;
+                }
+            }
+            let dfg = dfg::integrate(&rule, n_dot_v, alpha, Masking::Schlick);
+            let error = (dfg.scale - scale).abs().max((dfg.bias - bias).abs());
+            assert!(error < 2e-5, "{n_dot_v}, {alpha}: {dfg:?}, not {scale}, {bias}");
+        }
+    }
+}
+
 #[test]
 fn dfg_tends_to_its_limit_for_narrow_lobes() {
     let rule = TanhSinh::new();
-    for masking in [Masking::Correlated, Masking::Separable] {
+    for masking in [Masking::Correlated, Masking::Separable, Masking::Schlick] {
         for n_dot_v in [0.001, 0.0078125, 0.25, 0.75, 1.0] {
             let limit = dfg::integrate(&rule, n_dot_v, 0.0, masking);
             assert!((limit.bias - (1.0 - n_dot_v).powi(5)).abs() < 1e-15);
@@ -78,9 +116,12 @@ fn dfg_tends_to_its_limit_for_narrow_lobes() {
 #[test]
 fn committed_datasets_are_what_their_recipes_define() {
     let rule = TanhSinh::new();
-    for (name, masking, power) in
-        [("dfg", Masking::Correlated, 2), ("dfg_paper", Masking::Separable, 4)]
-    {
+    for (name, masking, power) in [
+        ("dfg", Masking::Correlated, 2),
+        ("dfg_paper", Masking::Separable, 4),
+        ("dfg_schlick", Masking::Schlick, 2),
+        ("dfg_alpha", Masking::Correlated, 1),
+    ] {
         let recipe = Recipe::load(&committed(&format!("{name}.ron"))).unwrap();
         let made = Dataset::load(&committed(&format!("{name}.bin"))).unwrap();
         assert_eq!(made.name, name);
