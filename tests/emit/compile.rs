@@ -11,7 +11,7 @@ use proptest::test_runner::TestRunner;
 
 /// What compilers are given: every operation, every constant hazard, nasty names, and programs
 /// drawn at random, each under a function name of its own.
-fn samples_to_compile(language: Language) -> Vec<String> {
+pub fn samples_to_compile(language: Language) -> Vec<String> {
     let mut codes = Vec::new();
     let mut add = |program: &Program, names: &Names| {
         let function = format!("f{}", codes.len());
@@ -128,7 +128,7 @@ fn without_namespace(code: &str) -> String {
 const MAIN_OF_GLSL: &str =
     "out vec4 color;\nvoid main() { color = vec4(f0_f(1.0, 2.0, 3.0, 4.0)); }\n";
 
-const MAIN_OF_HLSL: &str = "float4 main(float4 p : TEXCOORD0) : SV_Target {\n\
+pub const MAIN_OF_HLSL: &str = "float4 main(float4 p : TEXCOORD0) : SV_Target {\n\
     return f0_f(p.x, p.y, p.z, p.w);\n}\n";
 
 #[test]
@@ -169,6 +169,24 @@ fn a_compiler_takes_the_c_as_cpp() {
 }
 
 #[test]
+fn a_compiler_takes_the_cpp() {
+    if tools::found(&["c++", "--version"], "C++ was not compiled") {
+        let code = samples_to_compile(Language::Cpp).join("\n");
+        let command =
+            ["c++", "-std=c++14", "-Wall", "-Wextra", "-Wno-unused-parameter", "-Werror", "-c"];
+        compiled("snippets.cpp", &code, &command);
+    }
+}
+
+#[test]
+fn an_engine_takes_the_javascript() {
+    if tools::found(&["node", "--version"], "JavaScript was not parsed") {
+        let code = samples_to_compile(Language::Js).join("\n");
+        compiled("snippets.mjs", &code, &["node", "--check"]);
+    }
+}
+
+#[test]
 fn a_compiler_takes_the_rust() {
     if tools::found(&["rustc", "--version"], "Rust was not compiled") {
         let code = samples_to_compile(Language::Rust).join("\n");
@@ -187,7 +205,7 @@ fn an_interpreter_takes_the_python() {
 }
 
 /// Writes the file and gives its name to the command.
-fn compiled(file: &str, source: &str, command: &[&str]) {
+pub fn compiled(file: &str, source: &str, command: &[&str]) {
     let folder = tempfile::tempdir().unwrap();
     std::fs::write(folder.path().join(file), source).unwrap();
     tools::run(folder.path(), &[command, &[file]].concat());

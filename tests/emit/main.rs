@@ -3,11 +3,16 @@
 
 mod agreement;
 mod compile;
+mod cuda;
+mod dxc;
 mod half;
 mod hosts;
+mod installed;
 mod lavapipe;
+mod materialx;
 mod programs;
 mod read_back;
+mod slang;
 mod tools;
 #[path = "../vulkan/mod.rs"]
 mod vulkan;
