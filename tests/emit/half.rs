@@ -1,9 +1,10 @@
-//! WGSL, GLSL, HLSL and Slang in half precision: run on Mesa's software Vulkan, and compared with the
-//! evaluator for halves, and with single precision.
+//! WGSL, GLSL, HLSL and Slang in half precision: run on Mesa's software Vulkan, GLSL ES on its OpenGL, and
+//! compared with the evaluator for halves, and with single precision.
 
 use crate::agreement::{Case, Tolerance, front, operations};
+use crate::grid::Grid;
 use crate::lavapipe::{Compiler, Precision::InHalf, device, outputs};
-use crate::tools;
+use crate::{browser, tools};
 use ::half::f16;
 use lgp::eval::{Arithmetic, Double, Half};
 use lgp::num::Interval;
@@ -122,30 +123,48 @@ fn agree_in_half(compiler: Compiler) {
     if !gpu.half {
         return tools::skipped(&format!("{} has no halves; they were not run", gpu.name));
     }
-    let operations: Vec<Case> = operations().into_iter().map(with_half_inputs).collect();
+    for cases in [operations(), front()] {
+        let cases: Vec<Case> = cases.into_iter().map(with_half_inputs).collect();
+        compare(&format!("{compiler:?}"), &cases, outputs(&gpu, compiler, InHalf, &cases));
+    }
+}
+
+/// SwiftShader computes `mediump` in single precision, Mesa in half.
+#[test]
+fn glsl_es_in_half_precision_computes_what_the_evaluator_computes() {
+    if browser::found("GLSL ES in half precision was not run") {
+        let cases = Grid::of_all().cases.into_iter().map(with_half_inputs).collect();
+        let grid = Grid { cases };
+        let mut found = browser::outputs_in_half(&grid);
+        // Of a function with one operation it makes one of single precision, which the qualifier allows.
+        let values = found.iter_mut().flatten().flatten();
+        values.for_each(|value| *value = f16::from_f32(*value).to_f32());
+        compare("GLSL ES", &grid.cases, found);
+    }
+}
+
+/// Operations with the evaluator for halves, formulas with it and with single precision.
+fn compare(what: &str, cases: &[Case], found: Vec<Vec<Vec<f32>>>) {
     let mut worst: BTreeMap<Op, f32> = BTreeMap::new();
-    let found = outputs(&gpu, compiler, InHalf, &operations);
-    for (case, found) in operations.into_iter().zip(found) {
-        let op = case.op.unwrap();
-        let case = Case { expected: in_half(&case), ..case };
-        let apart = case.compare(&found, half_tolerance(op));
-        worst.entry(op).and_modify(|worst| *worst = worst.max(apart)).or_insert(apart);
-    }
-    for (op, worst) in worst {
-        println!("{compiler:?} in half, {op}: {worst:.1e} apart at most");
-    }
-    let front: Vec<Case> = front().into_iter().map(with_half_inputs).collect();
-    for (case, found) in front.iter().zip(outputs(&gpu, compiler, InHalf, &front)) {
+    for (case, found) in cases.iter().zip(found) {
         let evaluator = in_half(case);
+        if let Some(op) = case.op {
+            let apart = case.compare_with(&evaluator, &found, half_tolerance(op));
+            worst.entry(op).and_modify(|worst| *worst = worst.max(apart)).or_insert(apart);
+            continue;
+        }
         let run = largest_difference(&found, &case.expected);
         let evaluated = largest_difference(&evaluator, &case.expected);
         let between = largest_difference(&found, &evaluator);
         println!(
-            "{compiler:?} in half, {}: off single precision by {run:.5}, the evaluator by \
+            "{what} in half, {}: off single precision by {run:.5}, the evaluator by \
              {evaluated:.5}; {between:.5} between them",
             case.title
         );
         assert!(run <= 2.0 * evaluated + 2e-3, "{}: {run}, not {evaluated}", case.title);
+    }
+    for (op, worst) in worst {
+        println!("{what} in half, {op}: {worst:.1e} apart at most");
     }
 }
 
