@@ -146,7 +146,7 @@ fn grid() -> Grid {
 pub fn outputs_in_half(grid: &Grid) -> Vec<Vec<Vec<f32>>> {
     let half = |case: &Case| {
         let snippet = Snippet::new(&case.program, &case.names, &case.function);
-        emit_half(Language::GlslEs, &snippet, &[]).expect("it has halves")
+        emit_half(Language::GlslEs, &snippet, &case.stay_single).expect("it has halves")
     };
     let code = grid.cases.iter().map(half).chain([grid.chosen(&GLSL)]).collect::<String>();
     let folder = tempfile::tempdir().unwrap();

@@ -1,6 +1,7 @@
 //! C, C++, CUDA's host code, Rust, Python and JavaScript: run, and compared with the interpreter.
 
 use crate::agreement::{Case, OF_FORMULAS, Tolerance, front, operations};
+use crate::grid::called;
 use crate::programs::programs_of;
 use crate::{cuda, text, tools};
 use lgp::emit::Language;
@@ -166,14 +167,6 @@ fn read_floats(path: &Path) -> Vec<f32> {
 
 fn columns(values: &[f32], outputs: usize) -> Vec<Vec<f32>> {
     (0..outputs).map(|o| values.iter().skip(o).step_by(outputs).copied().collect()).collect()
-}
-
-/// The name of the function: that of a single output ends in its name.
-fn called(case: &Case) -> String {
-    match case.names.outputs.as_slice() {
-        [output] => format!("{}_{output}", case.function),
-        _ => case.function.clone(),
-    }
 }
 
 /// The columns' values at the row `i`.

@@ -3,6 +3,7 @@
 
 use crate::agreement::Case;
 use crate::compile::samples_to_compile;
+use crate::grid::called;
 use crate::installed::{PYTHON, driver, installed};
 use crate::lavapipe::{Compiler, agree_within, tolerance};
 use crate::{text, tools};
@@ -39,31 +40,39 @@ pub fn found(untested: &str) -> bool {
 
 /// The functions of the documents in GLSL, called and returning as those of the language are.
 pub fn functions(cases: &[Case]) -> String {
+    let shader = functions_of(cases, "glsl", "void main()");
+    // What the shader is given and gives is not the functions'.
+    let of_the_shader = ["#version", "#pragma", "uniform", "out ", "in "];
+    let lines = shader.lines().filter(|line| !of_the_shader.iter().any(|w| line.starts_with(w)));
+    lines.map(|line| format!("{line}\n")).chain(cases.iter().map(returning)).collect()
+}
+
+/// The functions of the documents in a language, before a shader's own function.
+pub fn functions_of(cases: &[Case], language: &str, of_the_shader: &str) -> String {
     let folder = tempfile::tempdir().unwrap();
     let document =
         |case: &Case| text(Language::MaterialX, &case.program, &case.names, &case.function, &[]);
     generated(folder.path(), cases.iter().map(document));
-    let shader = std::fs::read_to_string(folder.path().join("pixel.glsl")).unwrap();
-    let functions = &shader[..shader.find("void main()").expect("the shader's own function")];
-    // What the shader is given and gives is not the functions'.
-    let of_the_shader = ["#version", "#pragma", "uniform", "out ", "in "];
-    let lines = functions.lines().filter(|line| !of_the_shader.iter().any(|w| line.starts_with(w)));
-    lines.map(|line| format!("{line}\n")).chain(cases.iter().map(called)).collect()
+    let shader = std::fs::read_to_string(folder.path().join(format!("pixel.{language}"))).unwrap();
+    shader[..shader.find(of_the_shader).expect("the shader's own function")].to_owned()
 }
 
 /// A function of GLSL that returns what MaterialX's gives by parameters.
-fn called(case: &Case) -> String {
-    let inputs = (0..case.inputs.len()).map(|i| format!("float x{i}")).collect::<Vec<_>>();
-    let values = (0..case.expected.len()).map(|o| format!("y{o}")).collect::<Vec<_>>().join(", ");
-    let arguments = (0..case.inputs.len()).map(|i| format!("x{i}")).collect::<Vec<_>>();
-    let (function, of) = match case.names.outputs.as_slice() {
-        [output] => (format!("{}_{output}", case.function), "float".to_owned()),
-        outputs => (case.function.clone(), format!("vec{}", outputs.len())),
+fn returning(case: &Case) -> String {
+    let each = |before: &str, count: usize| {
+        (0..count).map(|i| format!("{before}{i}")).collect::<Vec<_>>().join(", ")
     };
+    let (inputs, outputs) = (case.inputs.len(), case.expected.len());
+    let of = if outputs == 1 { "float".to_owned() } else { format!("vec{outputs}") };
+    let (parameters, arguments, values) =
+        (each("float x", inputs), each("x", inputs), each("y", outputs));
+    let function = called(case);
     format!(
-        "{of} {function}({}) {{ float {values}; NG_{function}({}, {values}); return {of}({values}); }}\n",
-        inputs.join(", "),
-        arguments.join(", ")
+        "{of} {function}({parameters}) {{
+    float {values};
+    NG_{function}({arguments}, {values});
+    return {of}({values});
+}}\n"
     )
 }
 

@@ -69,4 +69,8 @@ for language, generator in GENERATORS.items():
     context = shader.GenContext(generator)
     context.registerSourceCodeSearchPath(search)
     code = generator.generate("values", output, context).getSourceCode(shader.PIXEL_STAGE)
+    if language == "osl":
+        # Whoever compiles it elsewhere does not know the libraries' folder.
+        header = search.find("libraries/stdlib/genosl/include/mx_funcs.h").asString()
+        code = code.replace('"mx_funcs.h"', f'"{header}"')
     (folder / f"pixel.{language}").write_text(code)
