@@ -1,7 +1,7 @@
 //! CUDA C++ by nvcc: taken, and halves compiled for a device.
 
 use crate::agreement::{Case, front, operations};
-use crate::compile::{compiled, samples_to_compile};
+use crate::compile::{all_to_compile, compiled};
 use crate::grid::called;
 use crate::installed::{NVCC, installed};
 use crate::tools;
@@ -17,7 +17,7 @@ pub fn compiler(untested: &str) -> Option<String> {
 #[test]
 fn nvcc_takes_the_cuda() {
     let Some(nvcc) = compiler("CUDA was not compiled") else { return };
-    let code = samples_to_compile(Language::Cuda).join("\n");
+    let code = all_to_compile(Language::Cuda).join("\n");
     compiled("snippets.cu", &code, &[&[&*nvcc, "-ptx"], ARCHITECTURE].concat());
 }
 

@@ -1,6 +1,6 @@
 //! HLSL by the DirectX Shader Compiler, Microsoft's own: taken, and computed on Vulkan.
 
-use crate::compile::{MAIN_OF_HLSL, samples_to_compile};
+use crate::compile::{MAIN_OF_HLSL, all_to_compile};
 use crate::installed::{driver, installed};
 use crate::lavapipe::Precision::{self, InHalf};
 use crate::lavapipe::{Compiler, agree, words};
@@ -16,7 +16,7 @@ fn hlsl_by_dxc_computes_what_the_interpreter_computes() {
 #[test]
 fn dxc_takes_the_hlsl() {
     if found("HLSL was not compiled by DXC") {
-        let mut samples = samples_to_compile(Language::Hlsl);
+        let mut samples = all_to_compile(Language::Hlsl);
         // Its validator refuses a power of infinity: `No indefinite logarithm`.
         samples.retain(|code| !code.contains("pow(infinity") && !code.contains("pow(minus_inf"));
         assert!(samples.len() > 400, "{}", samples.len());

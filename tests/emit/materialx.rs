@@ -2,7 +2,7 @@
 //! Vulkan.
 
 use crate::agreement::Case;
-use crate::compile::samples_to_compile;
+use crate::compile::all_to_compile;
 use crate::grid::called;
 use crate::installed::{PYTHON, driver, installed};
 use crate::lavapipe::{Compiler, agree_within, tolerance};
@@ -25,7 +25,7 @@ fn materialx_computes_what_the_interpreter_computes() {
 fn materialx_takes_the_documents() {
     if found("MaterialX's documents were not validated") {
         let folder = tempfile::tempdir().unwrap();
-        generated(folder.path(), samples_to_compile(Language::MaterialX));
+        generated(folder.path(), all_to_compile(Language::MaterialX));
         if tools::found(&["glslangValidator", "--version"], "MaterialX's GLSL was not compiled") {
             let command = ["glslangValidator", "-S", "frag", "pixel.glsl"];
             tools::run(folder.path(), &command);

@@ -1,7 +1,7 @@
 //! OSL by the compiler and the runtime in Cycles, compared with the interpreter.
 
 use crate::agreement::{Case, Tolerance};
-use crate::compile::samples_to_compile;
+use crate::compile::all_to_compile;
 use crate::grid::{Grid, called};
 use crate::installed::{PYTHON, driver, installed};
 use crate::{lavapipe, materialx, tools};
@@ -12,7 +12,7 @@ use lgp::op::Op;
 fn cycles_computes_osl_as_the_interpreter() {
     let Some(python) = installed(PYTHON, "OSL was not run") else { return };
     let grid = Grid::of_all();
-    let mut code = samples_to_compile(Language::Osl);
+    let mut code = all_to_compile(Language::Osl);
     code.extend(grid.functions(Language::Osl));
     code.push(evaluate(&grid, |case, arguments| match case.expected.len() {
         1 => format!("a = {}({arguments})", called(case)),

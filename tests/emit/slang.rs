@@ -1,6 +1,6 @@
 //! Slang by its compiler: taken, and computed on Vulkan.
 
-use crate::compile::{MAIN_OF_HLSL, samples_to_compile};
+use crate::compile::{MAIN_OF_HLSL, all_to_compile};
 use crate::installed::{SLANGC, installed};
 use crate::lavapipe::{Compiler, agree, words};
 use crate::tools;
@@ -15,7 +15,7 @@ fn slang_computes_what_the_interpreter_computes() {
 #[test]
 fn slangc_takes_the_slang() {
     if found("Slang was not compiled") {
-        let code = samples_to_compile(Language::Slang).join("\n");
+        let code = all_to_compile(Language::Slang).join("\n");
         let folder = tempfile::tempdir().unwrap();
         let shader = format!("[shader(\"fragment\")]\n{MAIN_OF_HLSL}");
         compiled(folder.path(), &format!("{code}\n{shader}"), "hlsl", "fragment");
