@@ -104,7 +104,8 @@ fn reserved(name: &str) -> bool {
         || is_word(FUNCTIONS, double)
 }
 
-/// Keywords of C23 (§6.4.1) and of C++20 ([lex.key]), and macros that compilers predefine.
+/// Keywords of C23 (§6.4.1) and of C++20 ([lex.key]), macros that compilers predefine, and types that
+/// headers of C++ and of glibc declare beside their own.
 const KEYWORDS: &str = "alignas alignof and and_eq asm atomic_cancel atomic_commit \
     atomic_noexcept auto bitand bitor bool break case catch char char8_t char16_t char32_t class \
     co_await co_return co_yield compl concept const const_cast consteval constexpr constinit \
@@ -114,7 +115,9 @@ const KEYWORDS: &str = "alignas alignof and and_eq asm atomic_cancel atomic_comm
     restrict return short signed sizeof static static_assert static_cast struct switch \
     synchronized template this thread_local throw true try typedef typeid typename typeof \
     typeof_unqual union unsigned using virtual void volatile wchar_t while xor xor_eq main std \
-    double_t float_t fortran linux unix";
+    double_t float_t fortran linux unix int8_t int16_t int32_t int64_t uint8_t uint16_t uint32_t \
+    uint64_t intptr_t uintptr_t intmax_t uintmax_t size_t ssize_t ptrdiff_t max_align_t nullptr_t \
+    uint ulong ushort";
 
 /// Macros of `math.h` in C23 (§7.12) and in glibc 2.36.
 const MACROS: &str = "INFINITY NAN HUGE_VAL HUGE_VALF HUGE_VALL FP_INFINITE FP_NAN FP_NORMAL \
@@ -124,10 +127,16 @@ const MACROS: &str = "INFINITY NAN HUGE_VAL HUGE_VALF HUGE_VALL FP_INFINITE FP_N
     isgreaterequal isinf isless islessequal islessgreater isnan isnormal isunordered signbit \
     issignaling issubnormal iszero signgam";
 
-/// Functions of doubles in `math.h` of C23 (§7.12) and of glibc 2.36, and of integers in
-/// `stdlib.h`.
+/// Functions of doubles in `math.h` of C23 (§7.12) and of glibc 2.36, of integers in `stdlib.h`, and
+/// those that GCC knows without a header ("Other Builtins" of its manual).
 const FUNCTIONS: &str = "acos acosh asin asinh atan atan2 atanh cbrt ceil copysign cos cosh drem \
     erf erfc exp exp10 exp2 expm1 fabs fdim finite floor fma fmax fmin fmod frexp gamma hypot ilogb \
     j0 j1 jn ldexp lgamma lgamma_r llrint llround log log10 log1p log2 logb lrint lround modf nan \
     nearbyint nextafter nexttoward pow pow10 remainder remquo rint round scalb scalbln scalbn \
-    significand sin sincos sinh sqrt tan tanh tgamma trunc y0 y1 yn abs labs llabs div ldiv";
+    significand sin sincos sinh sqrt tan tanh tgamma trunc y0 y1 yn abs labs llabs div ldiv \
+    abort alloca bcmp bcopy bzero calloc exit ffs fprintf fputc fputs free fscanf fwrite \
+    isalnum isalpha isascii isblank iscntrl isdigit isgraph islower isprint ispunct isspace isupper \
+    isxdigit malloc memchr memcmp memcpy memmove mempcpy memset printf putc putchar puts realloc \
+    rindex scanf snprintf sprintf sscanf stpcpy stpncpy strcasecmp strcat strchr strcmp strcpy \
+    strcspn strdup strftime strlen strncasecmp strncat strncmp strncpy strndup strpbrk strrchr \
+    strspn strstr toascii tolower toupper vfprintf vprintf vscanf vsnprintf vsprintf";

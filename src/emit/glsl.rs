@@ -124,7 +124,8 @@ const KEYWORDS: &str = "active asm atomic_uint attribute bool break buffer case 
     this true typedef uint uniform union unsigned using varying void volatile while writeonly";
 
 /// Builtin functions: §8 of GLSL 4.60.8 and of ES 3.20.6, without those that begin as a type does
-/// (`textureLod`, `imageLoad`).
+/// (`textureLod`, `imageLoad`), and those of GL_INTEL_shader_integer_functions2, which glslang has in all
+/// versions.
 const FUNCTIONS: &str = "abs acos acosh all any asin asinh atan atanh barrier bitCount \
     bitfieldExtract bitfieldInsert bitfieldReverse ceil clamp cos cosh cross dFdx dFdxCoarse \
     dFdxFine dFdy dFdyCoarse dFdyFine degrees determinant distance dot equal exp exp2 faceforward \
@@ -137,4 +138,5 @@ const FUNCTIONS: &str = "abs acos acosh all any asin asinh atan atanh barrier bi
     reflect refract round roundEven shadow1D shadow2D sign sin sinh smoothstep sqrt step tan tanh \
     texelFetch texelFetchOffset transpose trunc uaddCarry uintBitsToFloat umulExtended \
     unpackDouble2x32 unpackHalf2x16 unpackSnorm2x16 unpackSnorm4x8 unpackUnorm2x16 unpackUnorm4x8 \
-    usubBorrow";
+    usubBorrow countLeadingZeros countTrailingZeros absoluteDifference addSaturate \
+    subtractSaturate average averageRounded multiply32x16";

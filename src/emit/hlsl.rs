@@ -106,7 +106,7 @@ const KEYWORDS: &str = "appendstructuredbuffer asm asm_fragment auto blendstate 
     row_major rwbuffer rwbyteaddressbuffer rwstructuredbuffer rwtexture1d rwtexture1darray \
     rwtexture2d rwtexture2darray rwtexture3d sample sampler sampler1d sampler2d sampler3d \
     sampler_state samplercomparisonstate samplercube samplerstate shared short signed sizeof \
-    snorm stateblock stateblock_state static static_cast string struct structuredbuffer switch \
+    snorm std stateblock stateblock_state static static_cast string struct structuredbuffer switch \
     tbuffer technique technique10 technique11 template texture texture1d texture1darray texture2d \
     texture2darray texture2dms texture2dmsarray texture3d texturecube texturecubearray this throw \
     triangle triangleadj trianglestream true try typedef typeid typename uniform union unorm unroll \

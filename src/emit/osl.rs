@@ -79,8 +79,8 @@ fn reserved(name: &str) -> bool {
     name.contains("__") || is_word(KEYWORDS, name) || is_word(FUNCTIONS, name)
 }
 
-/// Keywords and reserved words (specification of 1.12, §3.2), global variables (§4.8), and the types of
-/// its standard header.
+/// Keywords and reserved words (specification of 1.12, §3.2), global variables (§4.8), the types and
+/// macros of its standard header, and the macros of its compiler, as of 1.14 in Cycles 4.5.
 const KEYWORDS: &str = "and break closure color continue do else emit float for if illuminance \
     illuminate int matrix normal not or output point public return string struct vector void while \
     bool case catch char class const delete default double enum extern false friend goto inline \
@@ -88,7 +88,8 @@ const KEYWORDS: &str = "and break closure color continue do else emit float for 
     try typedef uniform union unsigned varying virtual volatile shader surface displacement volume \
     P I N Ng dPdu dPdv Ps u v time dtime dPdtime Ci M_PI M_PI_2 M_PI_4 M_2_PI M_2PI M_4PI \
     M_2_SQRTPI M_E M_LN2 M_LN10 M_LOG2E M_LOG10E M_SQRT2 M_SQRT1_2 M_1_PI vector2 vector4 color2 \
-    color4 main";
+    color4 main BUILTIN BUILTIN_DERIV STDOSL_H OSL_VERSION OSL_VERSION_MAJOR OSL_VERSION_MINOR \
+    OSL_VERSION_PATCH FLT_MAX";
 
 /// Functions: §7 of the same specification.
 const FUNCTIONS: &str = "abs acos area arraylength asin atan atan2 backfacing bitwise_and blackbody \

@@ -64,9 +64,19 @@ impl Case {
     /// # Panics
     /// If some value does not agree.
     pub fn compare(&self, found: &[Vec<f32>], tolerance: Tolerance) -> f32 {
+        self.compare_with(&self.expected, found, tolerance)
+    }
+
+    /// Compares with other outputs than the interpreter's.
+    pub fn compare_with(
+        &self,
+        expected: &[Vec<f32>],
+        found: &[Vec<f32>],
+        tolerance: Tolerance,
+    ) -> f32 {
         let Tolerance { absolute, relative } = tolerance;
         let mut worst = 0.0f32;
-        for (o, (found, expected)) in found.iter().zip(&self.expected).enumerate() {
+        for (o, (found, expected)) in found.iter().zip(expected).enumerate() {
             assert_eq!(found.len(), expected.len(), "{}", self.title);
             for (row, (found, expected)) in found.iter().zip(expected).enumerate() {
                 if !expected.is_finite() {

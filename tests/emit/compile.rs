@@ -1,10 +1,10 @@
 //! Real compilers take what is emitted.
 
-use crate::programs::{SAMPLES, names, nasty_columns, programs, programs_of};
+use crate::programs::{SAMPLES, names, nasty_columns, programs, programs_of, words};
 use crate::{bits, text, tools};
 use lgp::emit::{Language, read_back};
 use lgp::op::Op;
-use lgp::program::{Names, Program, parse};
+use lgp::program::{Arg, Draft, Names, Program, parse};
 use proptest::prelude::*;
 use proptest::strategy::ValueTree;
 use proptest::test_runner::TestRunner;
@@ -35,9 +35,39 @@ fn samples_to_compile(language: Language) -> Vec<String> {
     codes
 }
 
+/// The same, and each reserved word of any language as an input, and as a function's name where
+/// that is a name of the shader.
+pub fn all_to_compile(language: Language) -> Vec<String> {
+    let mut codes = samples_to_compile(language);
+    let words = words();
+    let words: Vec<&str> = words.iter().map(String::as_str).collect();
+    for (i, inputs) in words.chunks(50).enumerate() {
+        let mut draft = Draft { inputs: inputs.len(), ..Draft::default() };
+        let mut sum = Arg::Input(0);
+        for input in 1..inputs.len() {
+            sum = draft.push(Op::Add, &[sum, Arg::Input(input as u16)]);
+        }
+        draft.outputs = vec![sum];
+        let program = Program::verify(draft).unwrap();
+        codes.push(text(
+            language,
+            &program,
+            &Names::new(inputs.iter().copied(), ["f"]),
+            &format!("w{i}"),
+            &[],
+        ));
+    }
+    if ![Language::MaterialX, Language::Tsl].contains(&language) {
+        let names = Names::new(["x"], ["y", "z"]);
+        let program = parse("y = x + 1; z = x*y", &names).unwrap();
+        codes.extend(words.iter().map(|word| text(language, &program, &names, word, &[])));
+    }
+    codes
+}
+
 #[test]
 fn naga_takes_the_wgsl() {
-    for code in samples_to_compile(Language::Wgsl) {
+    for code in all_to_compile(Language::Wgsl) {
         validated(&code);
     }
 }
@@ -126,9 +156,9 @@ fn without_namespace(code: &str) -> String {
 }
 
 const MAIN_OF_GLSL: &str =
-    "out vec4 color;\nvoid main() { color = vec4(f0_f(1.0, 2.0, 3.0, 4.0)); }\n";
+    "out vec4 of_main;\nvoid main() { of_main = vec4(f0_f(1.0, 2.0, 3.0, 4.0)); }\n";
 
-const MAIN_OF_HLSL: &str = "float4 main(float4 p : TEXCOORD0) : SV_Target {\n\
+pub const MAIN_OF_HLSL: &str = "float4 main(float4 p : TEXCOORD0) : SV_Target {\n\
     return f0_f(p.x, p.y, p.z, p.w);\n}\n";
 
 #[test]
@@ -136,8 +166,8 @@ fn glslang_takes_the_glsl_and_the_hlsl() {
     if !tools::found(&["glslangValidator", "--version"], "HLSL and GLSL were not compiled") {
         return;
     }
-    let glsl = samples_to_compile(Language::Glsl).join("\n");
-    let hlsl = samples_to_compile(Language::Hlsl).join("\n");
+    let glsl = all_to_compile(Language::Glsl).join("\n");
+    let hlsl = all_to_compile(Language::Hlsl).join("\n");
     let es = format!("#version 300 es\nprecision highp float;\n{glsl}\n{MAIN_OF_GLSL}");
     let desktop = format!("#version 450\n{glsl}\n{MAIN_OF_GLSL}");
     compiled("es.frag", &es, &["glslangValidator"]);
@@ -149,7 +179,7 @@ fn glslang_takes_the_glsl_and_the_hlsl() {
 #[test]
 fn a_compiler_takes_the_c() {
     if tools::found(&["cc", "--version"], "C was not compiled") {
-        let code = samples_to_compile(Language::C).join("\n");
+        let code = all_to_compile(Language::C).join("\n");
         let command =
             ["cc", "-std=c99", "-Wall", "-Wextra", "-Wno-unused-parameter", "-Werror", "-c"];
         compiled("snippets.c", &code, &command);
@@ -159,7 +189,7 @@ fn a_compiler_takes_the_c() {
 #[test]
 fn a_compiler_takes_the_c_as_cpp() {
     if tools::found(&["c++", "--version"], "C was not compiled as C++") {
-        let code = samples_to_compile(Language::C).join("\n");
+        let code = all_to_compile(Language::C).join("\n");
         compiled(
             "snippets.cpp",
             &code,
@@ -169,9 +199,27 @@ fn a_compiler_takes_the_c_as_cpp() {
 }
 
 #[test]
+fn a_compiler_takes_the_cpp() {
+    if tools::found(&["c++", "--version"], "C++ was not compiled") {
+        let code = all_to_compile(Language::Cpp).join("\n");
+        let command =
+            ["c++", "-std=c++14", "-Wall", "-Wextra", "-Wno-unused-parameter", "-Werror", "-c"];
+        compiled("snippets.cpp", &code, &command);
+    }
+}
+
+#[test]
+fn an_engine_takes_the_javascript() {
+    if tools::found(&["node", "--version"], "JavaScript was not parsed") {
+        let code = all_to_compile(Language::Js).join("\n");
+        compiled("snippets.mjs", &code, &["node", "--check"]);
+    }
+}
+
+#[test]
 fn a_compiler_takes_the_rust() {
     if tools::found(&["rustc", "--version"], "Rust was not compiled") {
-        let code = samples_to_compile(Language::Rust).join("\n");
+        let code = all_to_compile(Language::Rust).join("\n");
         let allowed = "#![deny(warnings)]\n#![allow(nonstandard_style, unused_variables)]\n";
         let command = ["rustc", "--edition", "2024", "--crate-type", "lib", "--emit", "metadata"];
         compiled("snippets.rs", &format!("{allowed}{code}"), &command);
@@ -181,13 +229,13 @@ fn a_compiler_takes_the_rust() {
 #[test]
 fn an_interpreter_takes_the_python() {
     if tools::found(&["python3", "--version"], "Python was not compiled") {
-        let code = samples_to_compile(Language::Python).join("\n");
+        let code = all_to_compile(Language::Python).join("\n");
         compiled("snippets.py", &code, &["python3", "-W", "error", "-m", "py_compile"]);
     }
 }
 
 /// Writes the file and gives its name to the command.
-fn compiled(file: &str, source: &str, command: &[&str]) {
+pub fn compiled(file: &str, source: &str, command: &[&str]) {
     let folder = tempfile::tempdir().unwrap();
     std::fs::write(folder.path().join(file), source).unwrap();
     tools::run(folder.path(), &[command, &[file]].concat());

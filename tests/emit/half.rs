@@ -1,11 +1,11 @@
-//! WGSL, GLSL and HLSL in half precision: run on Mesa's software Vulkan, and compared with the
-//! evaluator for halves, and with single precision.
+//! WGSL, GLSL, HLSL and Slang in half precision: run on Mesa's software Vulkan, GLSL ES on its OpenGL, and
+//! compared with the evaluator for halves, and with single precision.
 
 use crate::agreement::{Case, Tolerance, front, operations};
-use crate::lavapipe::{Precision::InHalf, device, outputs};
-use crate::tools;
+use crate::grid::Grid;
+use crate::lavapipe::{Compiler, Precision::InHalf, device, outputs};
+use crate::{browser, tools};
 use ::half::f16;
-use lgp::emit::Language;
 use lgp::eval::{Arithmetic, Double, Half};
 use lgp::num::Interval;
 use lgp::op::{MAX_ARITY, Op};
@@ -15,17 +15,27 @@ use std::collections::BTreeMap;
 
 #[test]
 fn wgsl_in_half_precision_computes_what_the_evaluator_computes() {
-    agree_in_half(Language::Wgsl);
+    agree_in_half(Compiler::Naga);
 }
 
 #[test]
 fn glsl_in_half_precision_computes_what_the_evaluator_computes() {
-    agree_in_half(Language::Glsl);
+    agree_in_half(Compiler::GlslangOfGlsl);
 }
 
 #[test]
 fn hlsl_in_half_precision_computes_what_the_evaluator_computes() {
-    agree_in_half(Language::Hlsl);
+    agree_in_half(Compiler::GlslangOfHlsl);
+}
+
+#[test]
+fn hlsl_in_half_precision_by_dxc_computes_what_the_evaluator_computes() {
+    agree_in_half(Compiler::Dxc);
+}
+
+#[test]
+fn slang_in_half_precision_computes_what_the_evaluator_computes() {
+    agree_in_half(Compiler::Slangc);
 }
 
 /// What [`must_stay_single`] leaves in single precision for an error of [`MIXED_ERROR`].
@@ -38,24 +48,39 @@ fn mixed_precision_errs_as_little_as_it_was_chosen_for() {
     };
     let cases: Vec<Case> = front().into_iter().step_by(4).filter_map(chosen).collect();
     assert!(cases.len() >= 5, "too few formulas need it: {}", cases.len());
-    for language in [Language::Wgsl, Language::Glsl, Language::Hlsl] {
-        let Some(gpu) = device(language) else { continue };
+    let compilers = [
+        Compiler::Naga,
+        Compiler::GlslangOfGlsl,
+        Compiler::GlslangOfHlsl,
+        Compiler::Dxc,
+        Compiler::Slangc,
+    ];
+    for compiler in compilers {
+        let Some(gpu) = device(compiler) else { continue };
         if !gpu.half {
             return tools::skipped(&format!("{} has no halves; they were not run", gpu.name));
         }
-        for (case, found) in cases.iter().zip(outputs(&gpu, language, InHalf, &cases)) {
-            let singles = case.stay_single.len();
-            let exact = in_double(case);
-            let [off, evaluated, without] = [&found, &mixed(case), &in_half(case)]
-                .map(|outputs| largest_difference(outputs, &exact));
-            println!(
-                "{language}, {}: {singles} in single, off by {off:.5}, the evaluator by \
-                 {evaluated:.5}; by {without:.5} in halves alone",
-                case.title
-            );
-            assert!(f64::from(evaluated) <= MIXED_SLACK * MIXED_ERROR, "{}: {off}", case.title);
-            assert!(f64::from(off) <= 2.0 * MIXED_ERROR, "{}: {off}", case.title);
-        }
+        errs_little(&format!("{compiler:?}"), &cases, outputs(&gpu, compiler, InHalf, &cases));
+    }
+    if browser::found("GLSL ES in mixed precision was not run") {
+        let grid = Grid { cases };
+        errs_little("GLSL ES", &grid.cases, browser::outputs_in_half(&grid));
+    }
+}
+
+fn errs_little(what: &str, cases: &[Case], found: Vec<Vec<Vec<f32>>>) {
+    for (case, found) in cases.iter().zip(found) {
+        let singles = case.stay_single.len();
+        let exact = in_double(case);
+        let [off, evaluated, without] = [&found, &mixed(case), &in_half(case)]
+            .map(|outputs| largest_difference(outputs, &exact));
+        println!(
+            "{what}, {}: {singles} in single, off by {off:.5}, the evaluator by \
+             {evaluated:.5}; by {without:.5} in halves alone",
+            case.title
+        );
+        assert!(f64::from(evaluated) <= MIXED_SLACK * MIXED_ERROR, "{}: {off}", case.title);
+        assert!(f64::from(off) <= 2.0 * MIXED_ERROR, "{}: {off}", case.title);
     }
 }
 
@@ -101,35 +126,53 @@ fn in_double(case: &Case) -> Vec<Vec<f32>> {
     outputs
 }
 
-fn agree_in_half(language: Language) {
-    let Some(gpu) = device(language) else { return };
+fn agree_in_half(compiler: Compiler) {
+    let Some(gpu) = device(compiler) else { return };
     if !gpu.half {
         return tools::skipped(&format!("{} has no halves; they were not run", gpu.name));
     }
-    let operations: Vec<Case> = operations().into_iter().map(with_half_inputs).collect();
+    for cases in [operations(), front()] {
+        let cases: Vec<Case> = cases.into_iter().map(with_half_inputs).collect();
+        compare(&format!("{compiler:?}"), &cases, outputs(&gpu, compiler, InHalf, &cases));
+    }
+}
+
+/// SwiftShader computes `mediump` in single precision, Mesa in half.
+#[test]
+fn glsl_es_in_half_precision_computes_what_the_evaluator_computes() {
+    if browser::found("GLSL ES in half precision was not run") {
+        let cases = Grid::of_all().cases.into_iter().map(with_half_inputs).collect();
+        let grid = Grid { cases };
+        let mut found = browser::outputs_in_half(&grid);
+        // Of a function with one operation it makes one of single precision, which the qualifier allows.
+        let values = found.iter_mut().flatten().flatten();
+        values.for_each(|value| *value = f16::from_f32(*value).to_f32());
+        compare("GLSL ES", &grid.cases, found);
+    }
+}
+
+/// Operations with the evaluator for halves, formulas with it and with single precision.
+fn compare(what: &str, cases: &[Case], found: Vec<Vec<Vec<f32>>>) {
     let mut worst: BTreeMap<Op, f32> = BTreeMap::new();
-    let found = outputs(&gpu, language, InHalf, &operations);
-    for (case, found) in operations.into_iter().zip(found) {
-        let op = case.op.unwrap();
-        let case = Case { expected: in_half(&case), ..case };
-        let apart = case.compare(&found, half_tolerance(op));
-        worst.entry(op).and_modify(|worst| *worst = worst.max(apart)).or_insert(apart);
-    }
-    for (op, worst) in worst {
-        println!("{language} in half, {op}: {worst:.1e} apart at most");
-    }
-    let front: Vec<Case> = front().into_iter().map(with_half_inputs).collect();
-    for (case, found) in front.iter().zip(outputs(&gpu, language, InHalf, &front)) {
+    for (case, found) in cases.iter().zip(found) {
         let evaluator = in_half(case);
+        if let Some(op) = case.op {
+            let apart = case.compare_with(&evaluator, &found, half_tolerance(op));
+            worst.entry(op).and_modify(|worst| *worst = worst.max(apart)).or_insert(apart);
+            continue;
+        }
         let run = largest_difference(&found, &case.expected);
         let evaluated = largest_difference(&evaluator, &case.expected);
         let between = largest_difference(&found, &evaluator);
         println!(
-            "{language} in half, {}: off single precision by {run:.5}, the evaluator by \
+            "{what} in half, {}: off single precision by {run:.5}, the evaluator by \
              {evaluated:.5}; {between:.5} between them",
             case.title
         );
         assert!(run <= 2.0 * evaluated + 2e-3, "{}: {run}, not {evaluated}", case.title);
+    }
+    for (op, worst) in worst {
+        println!("{what} in half, {op}: {worst:.1e} apart at most");
     }
 }
 

@@ -1,8 +1,9 @@
-//! C, Rust and Python: run, and compared with the interpreter.
+//! C, C++, CUDA's host code, Rust, Python and JavaScript: run, and compared with the interpreter.
 
 use crate::agreement::{Case, OF_FORMULAS, Tolerance, front, operations};
+use crate::grid::called;
 use crate::programs::programs_of;
-use crate::{text, tools};
+use crate::{cuda, text, tools};
 use lgp::emit::Language;
 use lgp::op::Op;
 use lgp::program::{Names, parse};
@@ -19,6 +20,39 @@ fn c_computes_what_the_interpreter_computes() {
         tools::run(folder, &[&["cc"], &options[..]].concat());
         tools::run(folder, &["./main"]);
     });
+}
+
+#[test]
+fn cpp_computes_what_the_interpreter_computes() {
+    if !tools::found(&["c++", "--version"], "C++ was not run") {
+        return;
+    }
+    agree(Language::Cpp, "main.cpp", c_program, |folder| {
+        let options = ["-std=c++14", "-O1", "-ffp-contract=off", "main.cpp", "-o", "main"];
+        tools::run(folder, &[&["c++"], &options[..]].concat());
+        tools::run(folder, &["./main"]);
+    });
+}
+
+/// The same text is for host and device; the host's part runs without a GPU.
+#[test]
+fn cuda_computes_on_the_host_what_the_interpreter_computes() {
+    let Some(nvcc) = cuda::compiler("CUDA was not run") else { return };
+    agree(Language::Cuda, "main.cu", c_program, |folder| {
+        let options = ["-O1", "-Xcompiler", "-ffp-contract=off", "main.cu", "-o", "main"];
+        tools::run(folder, &[&[&*nvcc], cuda::ARCHITECTURE, &options].concat());
+        tools::run(folder, &["./main"]);
+    });
+}
+
+/// Numbers are doubles there: rounded to singles, what is right in doubles is right in singles, too.
+#[test]
+fn javascript_computes_what_the_interpreter_computes() {
+    if !tools::found(&["node", "--version"], "JavaScript was not run") {
+        return;
+    }
+    let run = |folder: &Path| tools::run(folder, &["node", "main.mjs"]);
+    agree(Language::Js, "main.mjs", javascript_program, run);
 }
 
 #[test]
@@ -104,7 +138,10 @@ fn agree(language: Language, file: &str, program: fn(&Case) -> String, run: impl
             source += &text(language, &case.program, &case.names, &case.function, &[]);
         }
         source += &match language {
-            Language::C => format!("{C_FILES}int main(void) {{\n{}}}\n", all(&cases, program)),
+            Language::C | Language::Cpp | Language::Cuda => {
+                format!("{C_FILES}int main(void) {{\n{}}}\n", all(&cases, program))
+            }
+            Language::Js => JAVASCRIPT_FILES.to_owned() + &all(&cases, program),
             Language::Rust => format!("{RUST_FILES}fn main() {{\n{}}}\n", all(&cases, program)),
             _ => PYTHON_FILES.to_owned() + &all(&cases, program),
         };
@@ -132,14 +169,6 @@ fn columns(values: &[f32], outputs: usize) -> Vec<Vec<f32>> {
     (0..outputs).map(|o| values.iter().skip(o).step_by(outputs).copied().collect()).collect()
 }
 
-/// The name of the function: that of a single output ends in its name.
-fn called(case: &Case) -> String {
-    match case.names.outputs.as_slice() {
-        [output] => format!("{}_{output}", case.function),
-        _ => case.function.clone(),
-    }
-}
-
 /// The columns' values at the row `i`.
 fn arguments(case: &Case) -> String {
     let columns = (0..case.inputs.len()).map(|c| format!("x[{} + i]", c * case.rows()));
@@ -151,7 +180,7 @@ const C_FILES: &str = "
 #include <stdlib.h>
 
 static float *load(const char *path, size_t count) {
-    float *values = malloc(count * sizeof *values);
+    float *values = (float *)malloc(count * sizeof *values);
     FILE *file = fopen(path, \"rb\");
     if (!file || fread(values, sizeof *values, count, file) != count) exit(1);
     fclose(file);
@@ -162,21 +191,19 @@ static float *load(const char *path, size_t count) {
 
 fn c_program(case: &Case) -> String {
     let (rows, function, called) = (case.rows(), &case.function, called(case));
-    let structure = format!("{function}_outputs");
-    let returned = if case.names.outputs.len() == 1 { "float" } else { &structure };
+    let arguments = arguments(case);
     format!(
         "    {{
         float *x = load(\"{function}.in\", {});
         FILE *out = fopen(\"{function}.out\", \"wb\");
         for (size_t i = 0; i < {rows}; ++i) {{
-            {returned} y = {called}({});
+            __typeof__({called}({arguments})) y = {called}({arguments});
             fwrite(&y, sizeof y, 1, out);
         }}
         fclose(out);
         free(x);
     }}\n",
-        rows * case.inputs.len(),
-        arguments(case)
+        rows * case.inputs.len()
     )
 }
 
@@ -229,4 +256,25 @@ def run(name, function, columns):
 fn python_program(case: &Case) -> String {
     let (function, called) = (&case.function, called(case));
     format!("run(\"{function}\", {called}, {})\n", case.inputs.len())
+}
+
+const JAVASCRIPT_FILES: &str = "
+import { readFileSync, writeFileSync } from 'node:fs';
+
+function run(name, f, columns) {
+    const bytes = readFileSync(name + '.in');
+    const x = new Float32Array(bytes.buffer, bytes.byteOffset, bytes.length/4);
+    const rows = x.length/columns;
+    const values = [];
+    for (let i = 0; i < rows; ++i) {
+        values.push(f(...Array.from({ length: columns }, (_, c) => x[c*rows + i])));
+    }
+    writeFileSync(name + '.out', new Float32Array(values.flat()));
+}
+
+";
+
+fn javascript_program(case: &Case) -> String {
+    let (function, called) = (&case.function, called(case));
+    format!("run('{function}', {called}, {});\n", case.inputs.len())
 }

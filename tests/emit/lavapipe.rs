@@ -1,61 +1,99 @@
-//! WGSL, GLSL and HLSL: run on Mesa's software Vulkan, or the device whose name has `LGP_VULKAN_DEVICE`
-//! in it, and compared with the interpreter.
+//! WGSL, GLSL, HLSL and Slang: run on Mesa's software Vulkan, or the device whose name has
+//! `LGP_VULKAN_DEVICE` in it, and compared with the interpreter.
 
 use crate::agreement::{Case, OF_FORMULAS, Tolerance, front, operations};
 use crate::compile::validated;
 use crate::vulkan::Gpu;
-use crate::{text, tools};
+use crate::{dxc, materialx, slang, text, tools};
 use lgp::emit::{Language, Snippet, emit_half};
 use lgp::op::Op;
 use std::collections::BTreeMap;
+use std::path::Path;
+
+/// What makes SPIR-V of a language.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Compiler {
+    Naga,
+    GlslangOfGlsl,
+    GlslangOfHlsl,
+    Dxc,
+    Slangc,
+    /// MaterialX's generator of GLSL, and glslang.
+    MaterialX,
+}
+
+impl Compiler {
+    /// The language of the shader.
+    fn language(self) -> Language {
+        match self {
+            Compiler::Naga => Language::Wgsl,
+            Compiler::GlslangOfGlsl | Compiler::MaterialX => Language::Glsl,
+            Compiler::GlslangOfHlsl | Compiler::Dxc => Language::Hlsl,
+            Compiler::Slangc => Language::Slang,
+        }
+    }
+
+    fn found(self, untested: &str) -> bool {
+        let glslang = || tools::found(&["glslangValidator", "--version"], untested);
+        match self {
+            Compiler::Naga => true,
+            Compiler::GlslangOfGlsl | Compiler::GlslangOfHlsl => glslang(),
+            Compiler::Dxc => dxc::found(untested),
+            Compiler::Slangc => slang::found(untested),
+            Compiler::MaterialX => materialx::found(untested) && glslang(),
+        }
+    }
+}
 
 #[test]
 fn wgsl_computes_what_the_interpreter_computes() {
-    agree(Language::Wgsl);
+    agree(Compiler::Naga);
 }
 
 #[test]
 fn glsl_computes_what_the_interpreter_computes() {
-    agree(Language::Glsl);
+    agree(Compiler::GlslangOfGlsl);
 }
 
 #[test]
 fn hlsl_computes_what_the_interpreter_computes() {
-    agree(Language::Hlsl);
+    agree(Compiler::GlslangOfHlsl);
 }
 
-/// The device, unless that or the language's compiler is missing.
-pub fn device(language: Language) -> Option<Gpu> {
-    let untested = format!("{language} was not run");
+/// The device, unless that or the compiler is missing.
+pub fn device(compiler: Compiler) -> Option<Gpu> {
+    let untested = format!("{compiler:?} was not run");
     let name = std::env::var("LGP_VULKAN_DEVICE");
     let gpu = Gpu::open(name.as_deref().unwrap_or("llvmpipe"))
         .map_err(|why| tools::skipped(&format!("{why}; {untested}")));
-    let compiler = ["glslangValidator", "--version"];
-    let compiles = language == Language::Wgsl || tools::found(&compiler, &untested);
-    gpu.ok().filter(|_| compiles)
+    gpu.ok().filter(|_| compiler.found(&untested))
 }
 
-fn agree(language: Language) {
-    let Some(gpu) = device(language) else { return };
+pub fn agree(compiler: Compiler) {
+    agree_within(compiler, tolerance);
+}
+
+pub fn agree_within(compiler: Compiler, tolerance: fn(Op) -> Tolerance) {
+    let Some(gpu) = device(compiler) else { return };
     let (operations, front) = (operations(), front());
     let mut worst: BTreeMap<Op, f32> = BTreeMap::new();
-    for (case, found) in operations.iter().zip(outputs(&gpu, language, Single, &operations)) {
+    for (case, found) in operations.iter().zip(outputs(&gpu, compiler, Single, &operations)) {
         let op = case.op.unwrap();
         let apart = case.compare(&found, tolerance(op));
         worst.entry(op).and_modify(|worst| *worst = worst.max(apart)).or_insert(apart);
     }
     for (op, worst) in worst {
-        println!("{language}, {op}: {worst:.1e} apart at most");
+        println!("{compiler:?}, {op}: {worst:.1e} apart at most");
     }
-    for (case, found) in front.iter().zip(outputs(&gpu, language, Single, &front)) {
+    for (case, found) in front.iter().zip(outputs(&gpu, compiler, Single, &front)) {
         let apart = case.compare(&found, OF_FORMULAS);
-        println!("{language}, {}: {apart:.1e} apart at most", case.title);
+        println!("{compiler:?}, {}: {apart:.1e} apart at most", case.title);
     }
 }
 
 /// What Vulkan demands of single precision ("Precision of Individual Operations"), an ulp being
 /// up to 1.2e-7 of a value; functions that it derives from others, on ordinary arguments.
-fn tolerance(op: Op) -> Tolerance {
+pub fn tolerance(op: Op) -> Tolerance {
     let [absolute, relative] = match op {
         Op::Neg | Op::Abs | Op::Min | Op::Max | Op::Saturate | Op::Step | Op::Select => [0.0, 0.0],
         Op::Floor | Op::Fract | Op::Sign => [0.0, 0.0],
@@ -95,30 +133,35 @@ const GROUP: usize = 64;
 /// All cases in one shader: the outputs of each.
 pub fn outputs(
     gpu: &Gpu,
-    language: Language,
+    compiler: Compiler,
     precision: Precision,
     cases: &[Case],
 ) -> Vec<Vec<Vec<f32>>> {
     let input: Vec<f32> = cases.iter().flat_map(|case| case.inputs.concat()).collect();
     let rows = cases[0].rows();
     let columns: usize = cases.iter().map(|case| case.expected.len()).sum();
-    let spirv = compiled(language, precision, &source(language, precision, cases));
+    let spirv = compiled(compiler, precision, &source(compiler, precision, cases));
     let groups = rows.div_ceil(GROUP) as u32;
     let ran = gpu.run(&spirv, &input, rows * columns, groups).unwrap();
     let mut found = ran.output.chunks_exact(rows).map(<[f32]>::to_vec);
     cases.iter().map(|case| found.by_ref().take(case.expected.len()).collect()).collect()
 }
 
-fn source(language: Language, precision: Precision, cases: &[Case]) -> String {
-    let mut allowed = match (language, precision) {
-        (Language::Hlsl, InHalf) => functions_of_halves(),
+fn source(compiler: Compiler, precision: Precision, cases: &[Case]) -> String {
+    let language = compiler.language();
+    let mut allowed = match (compiler, precision) {
+        (Compiler::GlslangOfHlsl, InHalf) => functions_of_halves(),
+        (Compiler::MaterialX, _) => materialx::functions(cases),
         _ => String::new(),
     };
     let (mut functions, mut calls) = (String::new(), String::new());
     let (mut input, mut output) = (0, 0);
     for case in cases {
         assert_eq!(case.rows(), cases[0].rows());
-        let code = function(language, precision, case);
+        let code = match compiler {
+            Compiler::MaterialX => String::new(),
+            _ => function(language, precision, case),
+        };
         match code.split_once("\n\n") {
             // The line that allows halves may stand only once.
             Some((line, rest)) if precision == InHalf => {
@@ -239,19 +282,23 @@ void main(uint3 id : SV_DispatchThreadID) {{
     (before, "    }\n}\n")
 }
 
-fn compiled(language: Language, precision: Precision, source: &str) -> Vec<u32> {
-    match language {
-        Language::Wgsl => {
+fn compiled(compiler: Compiler, precision: Precision, source: &str) -> Vec<u32> {
+    match compiler {
+        Compiler::Naga => {
             let (module, info) = validated(source);
             let options = naga::back::spv::Options::default();
             naga::back::spv::write_vec(&module, &info, &options, None).unwrap()
         }
-        Language::Glsl => glslang("main.comp", &format!("#version 450\n{source}"), &[]),
-        _ => {
+        Compiler::GlslangOfGlsl | Compiler::MaterialX => {
+            glslang("main.comp", &format!("#version 450\n{source}"), &[])
+        }
+        Compiler::GlslangOfHlsl => {
             let halves = (precision == InHalf).then_some("--hlsl-enable-16bit-types");
             let options = ["-D", "-e", "main", "-S", "comp"].into_iter().chain(halves);
             glslang("main.hlsl", source, &options.collect::<Vec<_>>())
         }
+        Compiler::Dxc => dxc::spirv(source, precision),
+        Compiler::Slangc => slang::spirv(source),
     }
 }
 
@@ -260,6 +307,11 @@ fn glslang(file: &str, source: &str, options: &[&str]) -> Vec<u32> {
     std::fs::write(folder.path().join(file), source).unwrap();
     let command = ["glslangValidator", "-V", "--target-env", "vulkan1.2", "-o", "main.spv"];
     tools::run(folder.path(), &[&command, options, &[file]].concat());
-    let bytes = std::fs::read(folder.path().join("main.spv")).unwrap();
+    words(&folder.path().join("main.spv"))
+}
+
+/// A module of SPIR-V.
+pub fn words(path: &Path) -> Vec<u32> {
+    let bytes = std::fs::read(path).unwrap();
     bytes.chunks_exact(4).map(|b| u32::from_le_bytes(b.try_into().unwrap())).collect()
 }

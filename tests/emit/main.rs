@@ -2,13 +2,21 @@
 //! take it, and that it computes what the interpreter computes.
 
 mod agreement;
+mod browser;
 mod call;
 mod compile;
+mod cuda;
+mod dxc;
+mod grid;
 mod half;
 mod hosts;
+mod installed;
 mod lavapipe;
+mod materialx;
+mod osl;
 mod programs;
 mod read_back;
+mod slang;
 mod tools;
 #[path = "../vulkan/mod.rs"]
 mod vulkan;

@@ -3,6 +3,8 @@
 use lgp::op::Op;
 use lgp::program::{Arg, Draft, Names, Program};
 use proptest::prelude::*;
+use std::collections::BTreeSet;
+use std::path::Path;
 
 /// Each operation once, those with constant arguments on a few of them.
 pub const EVERY_OPERATION: &str = "a = saturate(mad(x, 3, -y)) + abs(x - y)*min(x, .5)/max(y, 1e-5); \
@@ -62,6 +64,23 @@ pub fn nasty_columns() -> (Program, Names) {
     sum = draft.push(Op::Min, &[sum, infinity]);
     draft.outputs = vec![sum, Arg::Result(3), Arg::Result(8), infinity, zero, Arg::Input(1)];
     (Program::verify(draft).unwrap(), Names::new(inputs, outputs))
+}
+
+/// The words of all lists of reserved words: each language's are names in the others.
+pub fn words() -> BTreeSet<String> {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("src/emit");
+    let mut words = BTreeSet::new();
+    for file in std::fs::read_dir(folder).unwrap() {
+        let path = file.unwrap().path();
+        let code = if path.is_file() { std::fs::read_to_string(path).unwrap() } else { continue };
+        for list in code.split(": &str = \"").skip(1) {
+            let list = list.split('"').next().expect("what is split has a first part");
+            let plain = |word: &&str| word.chars().all(|c| c.is_ascii_alphanumeric() || c == '_');
+            words.extend(list.split_whitespace().filter(plain).map(str::to_owned));
+        }
+    }
+    assert!(words.len() > 1000, "{}", words.len());
+    words
 }
 
 /// Any operation, arguments taken modulo what exists, constants of every size and sign.
