@@ -312,7 +312,14 @@ fn mismatch(
     let differs = |code: &ReadBack| match code.in_half {
         true if code.is(&stated.program) => None,
         true => Some("its operations and numbers are others".to_owned()),
-        false => difference(&code.program, &stated.program, dataset, names, tolerance).err(),
+        false => {
+            let differs = |formula: &Program| {
+                difference(&code.program, formula, dataset, names, tolerance).err()
+            };
+            let reason = differs(&stated.program)?;
+            let respelled = code.respelled(&stated.program);
+            respelled.is_none_or(|formula| differs(&formula).is_some()).then_some(reason)
+        }
     };
     let of_one = |code: &ReadBack| {
         let reason = differs(code)?;

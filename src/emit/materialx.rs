@@ -2,7 +2,8 @@
 //!
 //! Standard nodes have no `exp2`, `log2`, reciprocals or `tanh`: powers, natural logarithms,
 //! quotients and exponentials stand for them. There is no infinity and no NaN: the largest float
-//! and 0 do.
+//! and 0 do. The library's generators write six decimals of a number: one that needs more is a
+//! quotient.
 
 use super::Snippet;
 use super::header::header_lines;
@@ -179,9 +180,11 @@ impl Graph<'_, '_> {
     }
 
     fn node(&mut self, category: &str, inputs: &[(&str, &Source)]) -> Source {
+        let inputs: Vec<(&str, Source)> =
+            inputs.iter().map(|&(input, source)| (input, self.exact(source))).collect();
         let name = self.naming.temporary();
         self.lines.push(format!("    <{category} name=\"{name}\" type=\"float\">"));
-        for (input, source) in inputs {
+        for (input, source) in &inputs {
             let value = match source {
                 Source::Number(value) => format!("value=\"{}\"", number(*value)),
                 Source::Node(node) => format!("nodename=\"{node}\""),
@@ -193,11 +196,23 @@ impl Graph<'_, '_> {
         Source::Node(name)
     }
 
+    /// Returns a number that six decimals do not tell from others as the quotient of two that they
+    /// do, if there are such.
+    fn exact(&mut self, source: &Source) -> Source {
+        match source.number().and_then(quotient) {
+            Some([a, b]) => {
+                let [a, b] = [a, b].map(Source::Number);
+                self.node("divide", &[("in1", &a), ("in2", &b)])
+            }
+            None => source.clone(),
+        }
+    }
+
     /// Returns the node whose result is the value: an output is of a node.
     fn node_of(&mut self, value: Source) -> String {
-        let node = match value {
-            Source::Number(_) => self.node("constant", &[("value", &value)]),
-            Source::Input(_) => self.node("dot", &[("in", &value)]),
+        let node = match self.exact(&value) {
+            number @ Source::Number(_) => self.node("constant", &[("value", &number)]),
+            input @ Source::Input(_) => self.node("dot", &[("in", &input)]),
             node => node,
         };
         match node {
@@ -217,8 +232,27 @@ impl Source {
 }
 
 fn number(value: f32) -> String {
-    let finite = if value.is_nan() { 0.0 } else { value.clamp(f32::MIN, f32::MAX) };
-    decimal(finite)
+    decimal(finite(value))
+}
+
+fn finite(value: f32) -> f32 {
+    if value.is_nan() { 0.0 } else { value.clamp(f32::MIN, f32::MAX) }
+}
+
+/// Returns two numbers of six decimals whose quotient is the value, if that has more.
+fn quotient(value: f32) -> Option<[f32; 2]> {
+    let value = finite(value);
+    let in_six_decimals = |value: f64| format!("{value:.6}").parse::<f32>().ok();
+    let is_exact = |value: f32| in_six_decimals(value.into()) == Some(value);
+    if is_exact(value) {
+        return None;
+    }
+    let quotients = (1..=38).filter_map(|power| {
+        let scale = 10f32.powi(power);
+        Some([in_six_decimals(f64::from(value) * f64::from(scale))?, scale])
+    });
+    let exact = |&[a, b]: &[f32; 2]| a.is_finite() && is_exact(a) && a / b == value;
+    quotients.into_iter().find(exact)
 }
 
 /// Names that the code generated of a graph would not declare, in all its languages.

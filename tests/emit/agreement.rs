@@ -5,7 +5,7 @@ use lgp::dataset::{Dataset, Split};
 use lgp::eval::{Evaluator, Samples, Tape};
 use lgp::fit::Measure;
 use lgp::op::Op;
-use lgp::program::{Names, Program};
+use lgp::program::{Names, Program, parse};
 use lgp::run::Run;
 use lgp::search::Front;
 use rand::{RngExt, SeedableRng};
@@ -129,6 +129,15 @@ pub fn operations() -> Vec<Case> {
         }
     });
     cases.collect()
+}
+
+/// A formula whose constants are small or have many digits.
+pub fn fine_constants() -> Case {
+    let names = Names::new(["x", "y"], ["f"]);
+    let text = "f = x*1.2345678e-5 + (y*0.12345679 - 3.14e-9)/(x + 1e-7) - 2.5e-30";
+    let column = |from: f32| (0..256).map(|i| from + i as f32 / 256.0).collect();
+    let split = Split { columns: vec![column(0.0), column(-0.5)], ..Split::default() };
+    Case::new(0, "fine constants".to_owned(), parse(text, &names).unwrap(), names, &split)
 }
 
 /// Ordinary values, and those where something changes.

@@ -146,17 +146,27 @@ fn grid() -> Grid {
     Grid::of_all().without_powers_of_zero()
 }
 
+/// What a page computes of functions of GLSL.
+pub fn outputs_of(
+    grid: &Grid,
+    page: &str,
+    backend: &str,
+    functions: Vec<String>,
+) -> Vec<Vec<Vec<f32>>> {
+    let code = functions.into_iter().chain([grid.chosen(&GLSL)]).collect::<String>();
+    let folder = tempfile::tempdir().unwrap();
+    std::fs::write(folder.path().join("functions.glsl"), code).unwrap();
+    run(folder.path(), grid, page, backend);
+    grid.outputs(&folder.path().join("values.f32"))
+}
+
 /// What Mesa computes in `mediump`.
 pub fn outputs_in_half(grid: &Grid) -> Vec<Vec<Vec<f32>>> {
     let half = |case: &Case| {
         let snippet = Snippet::new(&case.program, &case.names, &case.function);
         emit_half(Language::GlslEs, &snippet, &case.stay_single).expect("it has halves")
     };
-    let code = grid.cases.iter().map(half).chain([grid.chosen(&GLSL)]).collect::<String>();
-    let folder = tempfile::tempdir().unwrap();
-    std::fs::write(folder.path().join("functions.glsl"), code).unwrap();
-    run(folder.path(), grid, "webgl2.html", "mesa");
-    grid.outputs(&folder.path().join("values.f32"))
+    outputs_of(grid, "webgl2.html", "mesa", grid.cases.iter().map(half).collect())
 }
 
 pub fn found(untested: &str) -> bool {

@@ -177,7 +177,7 @@ fn compare(what: &str, cases: &[Case], found: Vec<Vec<Vec<f32>>>) {
 }
 
 /// The same with inputs that a shader in half precision can be given; what is expected remains.
-fn with_half_inputs(mut case: Case) -> Case {
+pub fn with_half_inputs(mut case: Case) -> Case {
     for value in case.inputs.iter_mut().flatten() {
         *value = f16::from_f32(*value).to_f32();
     }
@@ -185,7 +185,7 @@ fn with_half_inputs(mut case: Case) -> Case {
 }
 
 /// The outputs that the evaluator for half precision gives.
-fn in_half(case: &Case) -> Vec<Vec<f32>> {
+pub fn in_half(case: &Case) -> Vec<Vec<f32>> {
     let mut outputs = vec![Vec::new(); case.expected.len()];
     for row in 0..case.rows() {
         let inputs: Vec<f16> = case.inputs.iter().map(|x| f16::from_f32(x[row])).collect();
@@ -195,7 +195,7 @@ fn in_half(case: &Case) -> Vec<Vec<f32>> {
     outputs
 }
 
-fn largest_difference(found: &[Vec<f32>], expected: &[Vec<f32>]) -> f32 {
+pub fn largest_difference(found: &[Vec<f32>], expected: &[Vec<f32>]) -> f32 {
     let differences =
         found.iter().flatten().zip(expected.iter().flatten()).map(|(a, b)| (a - b).abs());
     differences.fold(0.0, |worst, difference| if difference <= worst { worst } else { difference })

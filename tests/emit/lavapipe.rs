@@ -137,17 +137,37 @@ pub fn outputs(
     precision: Precision,
     cases: &[Case],
 ) -> Vec<Vec<Vec<f32>>> {
+    let usual = |case: &Case| match compiler {
+        Compiler::MaterialX => String::new(),
+        _ => function(compiler.language(), precision, case),
+    };
+    outputs_of(gpu, compiler, precision, cases, &usual)
+}
+
+/// The same of functions that are written in another way.
+pub fn outputs_of(
+    gpu: &Gpu,
+    compiler: Compiler,
+    precision: Precision,
+    cases: &[Case],
+    written: &dyn Fn(&Case) -> String,
+) -> Vec<Vec<Vec<f32>>> {
     let input: Vec<f32> = cases.iter().flat_map(|case| case.inputs.concat()).collect();
     let rows = cases[0].rows();
     let columns: usize = cases.iter().map(|case| case.expected.len()).sum();
-    let spirv = compiled(compiler, precision, &source(compiler, precision, cases));
+    let spirv = compiled(compiler, precision, &source(compiler, precision, cases, written));
     let groups = rows.div_ceil(GROUP) as u32;
     let ran = gpu.run(&spirv, &input, rows * columns, groups).unwrap();
     let mut found = ran.output.chunks_exact(rows).map(<[f32]>::to_vec);
     cases.iter().map(|case| found.by_ref().take(case.expected.len()).collect()).collect()
 }
 
-fn source(compiler: Compiler, precision: Precision, cases: &[Case]) -> String {
+fn source(
+    compiler: Compiler,
+    precision: Precision,
+    cases: &[Case],
+    written: &dyn Fn(&Case) -> String,
+) -> String {
     let language = compiler.language();
     let mut allowed = match (compiler, precision) {
         (Compiler::GlslangOfHlsl, InHalf) => functions_of_halves(),
@@ -158,13 +178,10 @@ fn source(compiler: Compiler, precision: Precision, cases: &[Case]) -> String {
     let (mut input, mut output) = (0, 0);
     for case in cases {
         assert_eq!(case.rows(), cases[0].rows());
-        let code = match compiler {
-            Compiler::MaterialX => String::new(),
-            _ => function(language, precision, case),
-        };
+        let code = written(case);
         match code.split_once("\n\n") {
             // The line that allows halves may stand only once.
-            Some((line, rest)) if precision == InHalf => {
+            Some((line, rest)) if precision == InHalf && !line.contains("_INCLUDED") => {
                 allowed = line.to_owned() + "\n";
                 functions += rest;
             }

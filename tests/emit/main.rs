@@ -7,6 +7,7 @@ mod call;
 mod compile;
 mod cuda;
 mod dxc;
+mod engines;
 mod grid;
 mod half;
 mod hosts;

@@ -1,11 +1,11 @@
 //! MaterialX's own library: it validates the documents, and generates code of them that is computed on
 //! Vulkan.
 
-use crate::agreement::Case;
+use crate::agreement::{Case, Tolerance, fine_constants};
 use crate::compile::all_to_compile;
 use crate::grid::called;
 use crate::installed::{PYTHON, driver, installed};
-use crate::lavapipe::{Compiler, agree_within, tolerance};
+use crate::lavapipe::{Compiler, Precision, agree_within, device, outputs, tolerance};
 use crate::{text, tools};
 use lgp::emit::Language;
 use lgp::op::Op;
@@ -18,6 +18,15 @@ fn materialx_computes_what_the_interpreter_computes() {
         Op::Exp2 => tolerance(Op::Pow),
         _ => tolerance(op),
     });
+}
+
+/// Its generators write numbers with six decimals.
+#[test]
+fn materialx_has_constants_of_more_than_six_decimals() {
+    let Some(gpu) = device(Compiler::MaterialX) else { return };
+    let case = [fine_constants()];
+    let found = outputs(&gpu, Compiler::MaterialX, Precision::Single, &case);
+    case[0].compare(&found[0], Tolerance { absolute: 0.0, relative: 1e-6 });
 }
 
 /// Its generators make shaders of them, in each of their languages.

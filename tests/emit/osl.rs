@@ -42,6 +42,11 @@ fn run(python: &str, what: &str, grid: &Grid, code: &str) {
     grid.compare(what, &folder.path().join("values.f32"), tolerance);
 }
 
+/// Chooses among functions that all give two outputs by parameters.
+pub fn of_outputs(grid: &Grid) -> String {
+    evaluate(grid, |case, arguments| format!("{}({arguments}, a, b)", case.function))
+}
+
 /// Chooses the case of a row; its outputs are two at most.
 fn evaluate(grid: &Grid, call: fn(&Case, arguments: &str) -> String) -> String {
     let head = "void evaluate(int row, float x, float y, float z, float w, output float a, \

@@ -64,9 +64,7 @@ def image_node(tree, name, height, texels):
     return node
 
 
-def script_node(tree, folder):
-    source = folder / "values.osl"
-    source.write_text(SHADER.format(functions=folder / "functions.osl", width=WIDTH))
+def script_node(tree, source):
     script = tree.nodes.new("ShaderNodeScript")
     script.mode, script.filepath = "EXTERNAL", str(source)
     said = []
@@ -94,7 +92,12 @@ def main(folder):
     texels = points + array.array("f", bytes(16 * WIDTH * height - 4 * len(points)))
     places = array.array("f", [v for y in range(height) for x in range(WIDTH) for v in (y, x, 0, 1)])
     scene, tree = new_scene(height)
-    script, emission = script_node(tree, folder), tree.nodes.new("ShaderNodeEmission")
+    # Other shaders in the folder are only taken.
+    for other in sorted(set(folder.glob("*.osl")) - {folder / "functions.osl"}):
+        tree.nodes.remove(script_node(tree, other))
+    source = folder / "values.osl"
+    source.write_text(SHADER.format(functions=folder / "functions.osl", width=WIDTH))
+    script, emission = script_node(tree, source), tree.nodes.new("ShaderNodeEmission")
     point, place = image_node(tree, "points", height, texels), image_node(tree, "places", height, places)
     surface = tree.nodes.new("ShaderNodeOutputMaterial")
     for output, to in [(point.outputs["Color"], script.inputs["first"]),

@@ -15,6 +15,11 @@ impl ReadBack {
     /// are the formula's, rounded to halves where they meet halves. Signs may stand elsewhere, and
     /// multiply-adds may be split.
     pub fn is(&self, formula: &Program) -> bool {
+        self.is_literally(formula)
+            || self.respelled(formula).is_some_and(|formula| self.is_literally(&formula))
+    }
+
+    fn is_literally(&self, formula: &Program) -> bool {
         let sides = self.program.inputs == formula.inputs
             && self.program.outputs.len() == formula.outputs.len();
         let mut comparison = Comparison {

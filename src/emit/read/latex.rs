@@ -3,6 +3,7 @@
 
 use super::lex::Comment;
 use super::{Contract, Precision, Read, ReadBack, ReadError};
+use crate::emit::Language;
 use crate::emit::latex::{self, COLUMNS};
 use crate::program::{Names, effective, parse};
 use std::collections::HashMap;
@@ -63,8 +64,18 @@ pub(super) fn read(text: &str) -> Read<ReadBack> {
     let mut names = names;
     let written = names.clone();
     contract.restore(&mut names);
-    let (variant, literal) = (None, None);
-    Ok(ReadBack { program, names, written, precisions, in_half: false, variant, literal, contract })
+    let (variant, literal, language) = (None, None, Language::Latex);
+    Ok(ReadBack {
+        language,
+        program,
+        names,
+        written,
+        precisions,
+        in_half: false,
+        variant,
+        literal,
+        contract,
+    })
 }
 
 /// Reads `columns: x, y -> a, b`.

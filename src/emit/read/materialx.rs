@@ -2,6 +2,7 @@
 
 use super::lex::Comment;
 use super::{Contract, Precision, Read, ReadBack, ReadError};
+use crate::emit::Language;
 use crate::op::Op;
 use crate::program::{Arg, Draft, Names, Program, effective, use_counts};
 use roxmltree::{Document, Node};
@@ -77,8 +78,18 @@ pub(super) fn read(text: &str) -> Read<ReadBack> {
     let written = names.clone();
     contract.restore(&mut names);
     let precisions = vec![Precision::Single; program.instrs.len()];
-    let (variant, literal) = (None, None);
-    Ok(ReadBack { program, names, written, precisions, in_half: false, variant, literal, contract })
+    let (variant, literal, language) = (None, None, Language::MaterialX);
+    Ok(ReadBack {
+        language,
+        program,
+        names,
+        written,
+        precisions,
+        in_half: false,
+        variant,
+        literal,
+        contract,
+    })
 }
 
 struct Graph<'a, 'input> {

@@ -70,6 +70,8 @@ pub enum Precision {
 /// A function that was read.
 #[derive(Clone, Debug)]
 pub struct ReadBack {
+    /// The language.
+    pub language: Language,
     /// The program that the function computes.
     pub program: Program,
     /// The names of the columns; those that are written differently are restored.
@@ -160,7 +162,7 @@ pub fn read_back(language: Language, text: &str) -> Result<ReadBack, ReadError> 
         return Err(ReadError::at(text, 0, message));
     }
     let literal = read_literal(language, text)?;
-    Ok(match literal.with_operations(language) {
+    Ok(match literal.with_operations() {
         Some(found) => ReadBack { literal: Some(Box::new(literal)), ..found },
         None => literal,
     })
@@ -329,9 +331,19 @@ impl Reader<'_> {
         let written = names.clone();
         contract.restore(&mut names);
         let in_half = self.of == Type::Half;
-        let program = effective(&program);
+        let (program, language) = (effective(&program), self.language);
         let (variant, literal) = (None, None);
-        Ok(ReadBack { program, names, written, precisions, in_half, variant, literal, contract })
+        Ok(ReadBack {
+            language,
+            program,
+            names,
+            written,
+            precisions,
+            in_half,
+            variant,
+            literal,
+            contract,
+        })
     }
 
     fn peek(&self) -> Option<&Token> {

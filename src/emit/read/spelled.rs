@@ -17,8 +17,8 @@ struct Pattern {
 
 impl ReadBack {
     /// Puts operations in the place of what spells them; none if there are none.
-    pub(super) fn with_operations(&self, language: Language) -> Option<ReadBack> {
-        let patterns = known_patterns(language);
+    pub(super) fn with_operations(&self) -> Option<ReadBack> {
+        let patterns = known_patterns(self.language);
         let Draft { inputs, instrs, consts, outputs } = &*self.program;
         let mut draft = Draft { inputs: *inputs, consts: consts.clone(), ..Draft::default() };
         let mut moved: Vec<Arg> = Vec::with_capacity(instrs.len());
@@ -92,6 +92,24 @@ fn patterns(language: Language) -> Vec<Pattern> {
     }
     patterns.sort_by_key(|pattern| std::cmp::Reverse(pattern.program.instrs.len()));
     patterns
+}
+
+impl ReadBack {
+    /// Returns a formula with the operations that this language spells by several in the place of
+    /// what spells them: code that is read has lost which of the two it was.
+    pub fn respelled(&self, formula: &Program) -> Option<Program> {
+        let precisions = vec![Precision::Single; formula.instrs.len()];
+        let (in_half, variant, literal) = (false, None, None);
+        let of_formula = ReadBack {
+            program: formula.clone(),
+            precisions,
+            in_half,
+            variant,
+            literal,
+            ..self.clone()
+        };
+        Some(of_formula.with_operations()?.program)
+    }
 }
 
 /// What stands in an argument's place.
