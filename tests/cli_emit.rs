@@ -187,6 +187,55 @@ fn a_changed_conversion_or_number_is_found() {
     }
 }
 
+/// What only a compiler would see: results in other places, parts of a dot product, a script's text.
+#[test]
+fn what_a_compiler_would_understand_otherwise_is_found() {
+    let folder = tempfile::tempdir().unwrap();
+    let three_results = [
+        "--lang",
+        "hlsl",
+        "--signature",
+        "float3 Env(float3 n, float3 v, float roughness, float f0)",
+        "--let",
+        "n_dot_v = dot(n, v)",
+        "--let",
+        "return.x = f0*scale + bias; return.y = scale; return.z = bias",
+    ];
+    let by_parameter = [
+        "--lang",
+        "hlsl",
+        "--signature",
+        "void Env(float2 uv, out float2 res)",
+        "--let",
+        "n_dot_v = uv.x; roughness = uv.y; res.x = scale; res.y = bias",
+    ];
+    let by_type = |language| vec!["--lang", language];
+    for (file, form, from, to) in [
+        ("a.hlsl", three_results.to_vec(), "n.y*v.y", "7.0*n.y*v.y"),
+        ("b.hlsl", three_results.to_vec(), " + n.y*v.y", ""),
+        ("c.hlsl", three_results.to_vec(), "return_x, return_y", "return_y, return_x"),
+        ("d.hlsl", by_parameter.to_vec(), "(res_x, res_y)", "(res_y, res_x)"),
+        ("e.hlsl", by_type("hlsl"), "(scale, bias)", "(bias, scale)"),
+        ("f.py", by_type("python"), "return scale, bias", "return bias, scale"),
+        ("g.rs", by_type("rust"), "(scale, bias)\n", "(bias, scale)\n"),
+        ("h.c", by_type("c"), "{ scale, bias }", "{ bias, scale }"),
+        ("i.hpp", by_type("cpp"), "float scale;\n    float bias;", "float bias;\n    float scale;"),
+        ("j.js", by_type("js"), "return [", "return\n        ["),
+        ("k.tsl.js", by_type("tsl"), "max, ", "max as min, min as max, "),
+        ("l.tsl.js", by_type("tsl"), "mul(0.15, t0)", "0.15*t0"),
+        ("m.glsl.js", vec!["--for", "three"], "`;", "`.replace('0.9', '0.1');"),
+        ("n.glsl.js", vec!["--for", "three"], "    float t1", "    // \\n t1 = 0.0;\n    float t1"),
+    ] {
+        let (code, _) = emitted_and_verified(folder.path(), file, &form);
+        assert!(code.contains(from), "{file}: {code}");
+        let path = folder.path().join(file);
+        std::fs::write(&path, code.replacen(from, to, 1)).unwrap();
+        let verify = lgp_here(&["verify", path.to_str().unwrap(), DATA, "--max-error", "1"]);
+        let status = verify.status.code();
+        assert!(matches!(status, Some(3 | 4)), "{file}: {}", text(&verify.stdout));
+    }
+}
+
 /// Both functions of a file in two precisions are looked at.
 #[test]
 fn a_changed_function_of_halves_is_found() {

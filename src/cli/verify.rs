@@ -113,7 +113,7 @@ fn snippet_on(args: &Args, dataset: &Path, common: &Common) -> Result<(), Failur
     let tolerance = if language == Language::Latex { 1e-5 } else { 0.0 };
     let mismatch =
         stated.as_ref().and_then(|stated| mismatch(code, stated, &dataset, &names, tolerance));
-    let agreement = stated.map(|_| mismatch);
+    let agreement = stated.map(|_| code.misplaced().or(mismatch));
     conclude(args, &score, &names.outputs, code.in_half, agreement, common)
 }
 
@@ -140,7 +140,8 @@ fn adapted(args: &Args, code: &ReadBack, whole: &Dataset, common: &Common) -> Re
             let program = over.called(&program, &columns).map_err(refused)?;
             let names = Names { inputs: code.written.inputs.clone(), outputs: outputs.to_vec() };
             let stated = Stated { line, program };
-            Some(mismatch(code, &stated, &over.dataset, &names, 0.0))
+            let mismatch = || mismatch(code, &stated, &over.dataset, &names, 0.0);
+            Some(code.misplaced().or_else(mismatch))
         }
     };
     conclude(args, &score, outputs, code.in_half, agreement, common)

@@ -86,11 +86,11 @@ fn line_naming(text: &str, name: &str, skipped: usize) -> usize {
     lines.nth(skipped).map_or(1, |(line, _)| line)
 }
 
-/// Returns the file that lists a dataset's incumbents, if there is one: `incumbents/<target>.ron`
-/// beside the dataset's file, after the target of its rows, or else after its name.
+/// Returns the file that lists a dataset's incumbents, if there is one: `incumbents/<name>.ron`
+/// beside the dataset's file, after its name, or else after the target of its rows.
 pub fn incumbents_file(dataset_path: &Path, dataset: &Dataset) -> Option<PathBuf> {
     let folder = dataset_path.parent()?.join("incumbents");
-    let names = [dataset.origin.target(), Some(dataset.name.clone())];
+    let names = [Some(dataset.name.clone()), dataset.origin.target()];
     let files = names.into_iter().flatten().map(|name| folder.join(name + ".ron"));
     files.into_iter().find(|file| file.is_file())
 }

@@ -68,15 +68,11 @@ impl Arguments {
                 reads.iter().copied().filter(|&component| values[component].is_none()).collect();
             let Some((&last, others)) = unknown.split_last() else { continue };
             for &other in others {
-                values[other] = Some(self.usual(other));
+                values[other] = Some(self.usual(other, number));
             }
             values[last] = Some(solved(program, &values, last, f64::from(row[*column]))?);
         }
-        let free = |component: usize| {
-            // The golden ratio's multiples fill [0, 1] evenly.
-            let golden = 0.618_033_988_749_894_9;
-            (golden * (number + 1) as f64 + 0.3 * component as f64).fract()
-        };
+        let free = |component: usize| spread(component, number);
         let values = values.iter().enumerate();
         Some(values.map(|(i, value)| value.unwrap_or_else(|| free(i)) as f32).collect())
     }
@@ -108,15 +104,22 @@ impl Arguments {
         ranges.collect()
     }
 
-    /// Returns the value of a component that may have any: vectors point along z.
-    fn usual(&self, component: usize) -> f64 {
-        let name = &self.components[component];
-        match name.rsplit_once('.') {
-            Some((_, "z")) => 1.0,
-            Some(_) => 0.0,
-            None => 0.5,
+    /// Returns the value of a component that may have any: of each row others, so that none may be
+    /// left out unseen; vectors point along z, more or less.
+    fn usual(&self, component: usize, number: usize) -> f64 {
+        let share = spread(component, number);
+        match self.components[component].rsplit_once('.') {
+            Some((_, "z")) => 0.75 + 0.25 * share,
+            Some(_) => 0.5 * (share - 0.5),
+            None => share,
         }
     }
+}
+
+/// Returns values in [0, 1) that fill it evenly: multiples of the golden ratio.
+fn spread(component: usize, number: usize) -> f64 {
+    let golden = 0.618_033_988_749_894_9;
+    (golden * (number + 1) as f64 + 0.3 * component as f64).fract()
 }
 
 fn reads(program: &Program, component: usize) -> bool {
@@ -201,13 +204,14 @@ mod tests {
     }
 
     #[test]
-    fn vectors_point_along_z_and_what_is_free_is_anything() {
+    fn vectors_have_the_dot_product_that_is_asked_for_and_what_is_free_is_anything() {
         let lets = ["n_dot_v = dot(n, v)"];
         let components = ["n.x", "n.y", "n.z", "v.x", "v.y", "v.z", "f0"];
         let arguments = arguments(&components, &["n_dot_v"], &lets);
         let found = arguments.at(&[0.3], 5).unwrap();
-        assert_eq!(found[..3], [0.0, 0.0, 1.0]);
-        assert!((found[5] - 0.3).abs() < 1e-6 && (0.0..1.0).contains(&found[6]), "{found:?}");
+        let dot: f32 = (0..3).map(|i| found[i] * found[3 + i]).sum();
+        assert!((dot - 0.3).abs() < 1e-6 && (0.0..1.0).contains(&found[6]), "{found:?}");
+        assert!(found[..5].iter().all(|component| component.abs() > 1e-3), "{found:?}");
     }
 
     #[test]

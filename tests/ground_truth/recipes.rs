@@ -19,7 +19,7 @@ fn recipes_read_back_and_explain_themselves() {
     recipe.set("masking", "separable").unwrap();
     let refusals = [
         (recipe.set("masking", "seperable"), "did you mean `separable`?"),
-        (recipe.set("masking", "none"), "write `correlated`, `separable` or `schlick`"),
+        (recipe.set("masking", "none"), "write `correlated` or `separable` or `schlick`"),
         (recipe.set("point", "3"), "did you mean `points`?"),
         (recipe.set("points", "1"), "a whole number from 2 to 1024"),
         (recipe.set("points", "many"), "a whole number from 2 to 1024"),

@@ -74,6 +74,8 @@ pub(super) struct Contract {
     columns: HashMap<String, String>,
     /// The statements about columns and results.
     lets: Vec<String>,
+    /// The outputs in order, of the line that says what is computed of what.
+    outputs: Option<Vec<String>>,
 }
 
 impl Contract {
@@ -99,8 +101,16 @@ impl Contract {
         } else if let Some((written, column)) = renamed {
             self.columns.insert(written.trim().to_owned(), unescaped(column));
         } else {
+            if let Some((_, outputs)) = text.split_once(" -> ").filter(|_| self.outputs.is_none()) {
+                self.outputs =
+                    Some(outputs.split(", ").map(|name| name.trim().to_owned()).collect());
+            }
             self.unmarked.push((line, text.to_owned()));
         }
+    }
+
+    pub fn outputs(&self) -> Option<&[String]> {
+        self.outputs.as_deref()
     }
 
     pub fn lets(&self) -> &[String] {

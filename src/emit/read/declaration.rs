@@ -127,15 +127,15 @@ impl Reader<'_> {
             return self.error(self.offset(), "expected the name of a structure");
         }
         self.expect('{', "and the members of the structure")?;
-        let (mut members, mut types) = (0, Vec::new());
+        let (mut members, mut types) = (Vec::new(), Vec::new());
         while !self.take_symbol('}') {
             let at = self.offset();
-            let (_, of) = self.typed_name("a member")?;
+            let (member, of) = self.typed_name("a member")?;
             types.push(of);
             if types[0] != of {
                 return self.error(at, "members of floats and of halves in one structure");
             }
-            members += 1;
+            members.push(member);
             match self.language {
                 Language::Wgsl if self.is_symbol(0, '}') => {}
                 Language::Wgsl => self.expect(',', "after a member")?,
@@ -301,7 +301,9 @@ impl Reader<'_> {
         let at = self.offset();
         let name = self.type_name()?;
         let (of, returned) = match (&self.structure, self.known_type(&name)) {
-            (Some(structure), None) if structure.name == name => (structure.of, structure.members),
+            (Some(structure), None) if structure.name == name => {
+                (structure.of, structure.members.len())
+            }
             (_, Some(known)) => known,
             _ => return self.unknown_type(&name, at, "what a function returns"),
         };

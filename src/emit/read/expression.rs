@@ -158,6 +158,10 @@ impl Reader<'_> {
         while let Some((_, op)) = operators.into_iter().find(|(s, _)| self.is_symbol(0, *s)) {
             let between = self.offset();
             self.next += 1;
+            if self.syntax.readable.style == Style::Nodes {
+                return self
+                    .error(between, "nodes have no operators; write `add`, `sub`, `mul` or `div`");
+            }
             let left = self.as_float(value, at)?;
             let at = self.offset();
             let right = operand(self)?;

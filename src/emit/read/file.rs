@@ -50,6 +50,18 @@ fn of_literals(text: &str) -> Read<(Language, ReadBack)> {
     };
     let mut found: Option<(Language, ReadBack)> = None;
     for [open, close] in literals {
+        let escape = text[open..close].find(['\\', '$']).map(|at| open + at);
+        let rest = text[close + 1..].lines().next().unwrap_or("");
+        if let Some(at) = escape {
+            return Err(ReadError::at(
+                text,
+                at,
+                "an escape in a literal, which makes another text",
+            ));
+        }
+        if rest.trim() != ";" {
+            return Err(ReadError::at(text, close, "expected `;` after the literal"));
+        }
         let shader = alone(text, open + 1, close);
         let is_wgsl = text[open..close].contains("fn ");
         let language = match (is_wgsl, has_precision(&text[open..close])) {

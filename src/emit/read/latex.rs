@@ -67,6 +67,7 @@ pub(super) fn read(text: &str) -> Read<ReadBack> {
     let (variant, literal, language) = (None, None, Language::Latex);
     Ok(ReadBack {
         language,
+        returned: names.outputs.len(),
         program,
         names,
         written,

@@ -148,7 +148,12 @@ fn starts_a_line(text: &str, at: usize) -> bool {
 fn line_without_meaning(readable: &Readable, text: &str) -> Option<usize> {
     let line = text.lines().next().unwrap_or("");
     let known = |known: &&str| match known.strip_suffix('*') {
-        Some(beginning) => line.starts_with(beginning) && line.trim_end().ends_with("three/tsl';"),
+        // An import by another name would be another function.
+        Some(beginning) => {
+            line.starts_with(beginning)
+                && line.trim_end().ends_with("} from 'three/tsl';")
+                && !line.contains(" as ")
+        }
         None => line.split_whitespace().eq(known.split_whitespace()),
     };
     readable.lines.iter().any(known).then_some(line.len())

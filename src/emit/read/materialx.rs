@@ -81,6 +81,7 @@ pub(super) fn read(text: &str) -> Read<ReadBack> {
     let (variant, literal, language) = (None, None, Language::MaterialX);
     Ok(ReadBack {
         language,
+        returned: names.outputs.len(),
         program,
         names,
         written,

@@ -10,7 +10,12 @@ impl Reader<'_> {
     /// Reads a statement; returns the outputs' names after a `return`.
     pub(super) fn statement(&mut self) -> Read<Option<Vec<String>>> {
         self.local = self.of;
+        let at = self.offset();
         if self.take_word("return") {
+            let is_script = matches!(self.syntax.readable.style, Style::Script | Style::Nodes);
+            if is_script && self.text[at..self.offset()].contains('\n') {
+                return self.error(at, "`return` returns nothing where its line ends");
+            }
             return self.returned().map(Some);
         }
         if self.assigned_parameter()? {
@@ -307,7 +312,7 @@ impl Reader<'_> {
             // A constructor's precision is that of what it is given.
             (_, Some((_, size))) if self.language == Language::GlslEs => (self.of, size),
             (_, Some(known)) => known,
-            (Some(structure), None) => (structure.of, structure.members),
+            (Some(structure), None) => (structure.of, structure.members.len()),
             _ => return self.unknown_type(&of, at, "a value"),
         };
         let mut components = self.components_until(close)?;
@@ -317,6 +322,17 @@ impl Reader<'_> {
         if components.len() != size {
             let found = components.len();
             return self.error(at, format!("{found} components, where `{of}` has {size}"));
+        }
+        if let Some(structure) = self.structure.as_ref().filter(|known| known.name == of) {
+            let names: Vec<&String> =
+                components.iter().filter_map(|(name, _)| name.as_ref()).collect();
+            let is_permuted = structure.members.iter().all(|member| names.contains(&member));
+            let mut pairs = names.iter().zip(&structure.members);
+            let other = pairs.find(|(name, member)| **name != *member);
+            if let Some((name, member)) = other.filter(|_| is_permuted) {
+                let message = format!("`{name}` stands where the member `{member}` is");
+                return self.error(at, message);
+            }
         }
         Ok(Value::Several(Several { of, components }))
     }
