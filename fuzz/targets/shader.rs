@@ -5,12 +5,16 @@
 use lgp::emit::{Language, ReadBack, Snippet, emit, read_back};
 use libfuzzer_sys::fuzz_target;
 
+/// Those in which what is written computes the same bits: all infinities, and one order of terms.
+const LANGUAGES: [Language; 5] =
+    [Language::Hlsl, Language::Wgsl, Language::Glsl, Language::Msl, Language::Slang];
+
 const VALUES: [f32; 6] = [0.0, 1.0, -1.5, 0.3, 7.25, 1e20];
 
 fuzz_target!(|content: &[u8]| {
     let Some((first, rest)) = content.split_first() else { return };
     let Ok(text) = std::str::from_utf8(rest) else { return };
-    let language = Language::ALL[usize::from(*first) % Language::ALL.len()];
+    let language = LANGUAGES[usize::from(*first) % LANGUAGES.len()];
     let Ok(ReadBack { program, names, .. }) = read_back(language, text) else { return };
     let snippet = Snippet::new(&program, &names, "f");
     let written = emit(language, &snippet);

@@ -19,7 +19,11 @@ impl Reader<'_> {
         self.structure()?;
         let inputs = self.head()?;
         self.draft.inputs = inputs.len();
+        let at = self.offset();
         let outputs = self.body()?;
+        if outputs.is_empty() {
+            return self.error(at, "the function gives no value");
+        }
         self.end()?;
         Ok(Names { inputs, outputs })
     }
