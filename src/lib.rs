@@ -30,7 +30,7 @@
 //! | [`truth`] | functions that can be evaluated anywhere; where they are sampled, on grids or by a mesh that follows a search; errors over a whole domain |
 //! | [`search`] | problems and methods, islands, variation, fronts |
 //! | [`project`] | models' parameters, point by point |
-//! | [`emit`] | formulas as HLSL, WGSL, GLSL, MSL, Slang, and back; as C, Rust, Python, LaTeX |
+//! | [`emit`] | formulas in shading and other languages, as files for engines, under any head; and back |
 //! | [`wording`] | fronts, verdicts and examinations in words |
 //! | [`shader`] | functions of shaders as truths: read, interpreted, written down as formulas |
 //! | [`run`] | a search under way, from its budget to its fronts; its record and folder; unions, what recurs |

@@ -6,7 +6,7 @@ mod command;
 
 use command::{command, succeed, text};
 use lgp::dataset::Dataset;
-use lgp::emit::{Language, read_back};
+use lgp::emit::{Language, language_of, read_back};
 use serde_json::Value;
 use std::path::{Path, PathBuf};
 use std::process::Output;
@@ -131,7 +131,7 @@ fn a_constant_changed_in_its_third_digit_is_caught() {
     let dataset = Dataset::load(&data()).unwrap();
     let folder = tempfile::tempdir().unwrap();
     for (path, snippet) in snippets(folder.path()) {
-        let language = Language::of_file(&path).unwrap();
+        let language = language_of(&path).unwrap();
         // Others spell a saturation by numbers that need not matter.
         if !language.has_halves() || language == Language::Cuda {
             continue;

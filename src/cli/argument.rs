@@ -18,6 +18,14 @@ pub fn duration(text: &str) -> Result<Duration, String> {
     }
 }
 
+/// Parses an error that is allowed.
+pub fn error(text: &str) -> Result<f64, String> {
+    match text.parse::<f64>() {
+        Ok(error) if error.is_finite() && error >= 0.0 => Ok(error),
+        _ => Err("an error that is allowed is a number, 0 or more".into()),
+    }
+}
+
 /// Parses a cost budget in cycles.
 pub fn cycles(text: &str) -> Result<f64, String> {
     match text.parse::<f64>() {

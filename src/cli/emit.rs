@@ -1,7 +1,7 @@
 //! `lgp emit`: a formula of a run as code.
 
 use super::run_folder::{self, Which};
-use super::{Common, Failure, tiers};
+use super::{Common, Failure, argument, tiers};
 use crate::emit::{Engine, Language, Lets, read_head};
 use crate::file::replace_file;
 use crate::program::shortest;
@@ -63,7 +63,7 @@ pub struct Args {
     half: bool,
     /// Use half precision, except for the fewest operations that must stay in single precision so
     /// that halves add an error of at most E anywhere in the domain
-    #[arg(long, value_name = "E", conflicts_with = "half", value_parser = error_bound)]
+    #[arg(long, value_name = "E", conflicts_with = "half", value_parser = argument::error)]
     half_error: Option<f64>,
     /// The formula to take: its number in the table, or the knee [default: knee]
     #[arg(long, value_name = "knee|N", conflicts_with_all = ["max_cost", "max_error", "tier"])]
@@ -72,18 +72,11 @@ pub struct Args {
     #[arg(long, value_name = "C")]
     max_cost: Option<f64>,
     /// Take the cheapest formula whose error (RMSE, or the measure of the front) is at most E
-    #[arg(long, value_name = "E", value_parser = error_bound)]
+    #[arg(long, value_name = "E", value_parser = argument::error)]
     max_error: Option<f64>,
     /// Take the best formula that this tier of the run's scene can afford
     #[arg(long, value_name = "TIER", conflicts_with_all = ["max_cost", "max_error"])]
     tier: Option<String>,
-}
-
-fn error_bound(text: &str) -> Result<f64, String> {
-    match text.parse::<f64>() {
-        Ok(error) if error.is_finite() && error >= 0.0 => Ok(error),
-        _ => Err("an error is a number, 0 or more".into()),
-    }
 }
 
 fn half_help() -> String {

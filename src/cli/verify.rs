@@ -1,7 +1,7 @@
 //! `lgp verify`: a shader file against the data and its own comment.
 
 use super::truth::Sampled;
-use super::{Common, Failure, against};
+use super::{Common, Failure, against, argument};
 use crate::dataset::{Dataset, Split};
 use crate::emit::{
     CallError, Engine, Language, MAX_SNIPPET, ReadBack, Stated, StatedError, column_called,
@@ -54,7 +54,7 @@ pub struct Args {
     #[arg(long, value_name = "S")]
     scene: Option<String>,
     /// The largest RMSE allowed, over the outputs, on the search split, as `lgp front` shows it
-    #[arg(long, value_name = "E", value_parser = error_bound)]
+    #[arg(long, value_name = "E", value_parser = argument::error)]
     max_error: f64,
     /// The columns that the function returns, in order [default: the names in the function]
     #[arg(long, value_name = "A,B", value_delimiter = ',')]
@@ -74,13 +74,6 @@ struct Verified {
     errors: BTreeMap<String, OutputError>,
     /// True if the code computes the formula in its comment; null where there is none.
     as_commented: Option<bool>,
-}
-
-fn error_bound(text: &str) -> Result<f64, String> {
-    match text.parse::<f64>() {
-        Ok(error) if error.is_finite() && error >= 0.0 => Ok(error),
-        _ => Err("the largest RMSE is a number, 0 or more".into()),
-    }
 }
 
 pub fn run(args: &Args, common: &Common) -> Result<(), Failure> {

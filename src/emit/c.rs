@@ -3,8 +3,7 @@
 use super::c_family;
 use super::language::{Entry, Form};
 use super::syntax::{
-    Plain, Readable, Spelling, Syntax, WrittenHead, atom, decimal, is_word, negation, product,
-    select, sum,
+    Plain, Readable, Spelling, Syntax, WrittenHead, atom, decimal, is_word, product, select, sum,
 };
 use crate::op::Op;
 
@@ -37,11 +36,7 @@ pub(super) const SYNTAX: Syntax = Syntax {
 
 fn spelling(op: Op) -> Spelling {
     match op {
-        Op::Add => sum("{a+} + {b*}"),
-        Op::Sub => sum("{a+} - {b*}"),
-        Op::Mul => product("{a*}*{b-}"),
-        Op::Div => product("{a*}/{b-}"),
-        Op::Neg => negation("-{a!}"),
+        Op::Add | Op::Sub | Op::Mul | Op::Div | Op::Neg => c_family::spelling(op),
         Op::Abs => atom("fabsf({a})"),
         Op::Min => atom("fminf({a}, {b})"),
         Op::Max => atom("fmaxf({a}, {b})"),

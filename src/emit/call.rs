@@ -2,7 +2,7 @@
 //! vectors, or computed from what is given; its outputs as what a caller expects.
 
 use super::read::{let_line, name_line};
-use super::signature::{Head, Signature};
+use super::signature::{Head, Signature, returned_names};
 use crate::program::{Arg, Draft, Names, ParseError, Program, effective, parse};
 use crate::suggest::did_you_mean;
 
@@ -259,7 +259,7 @@ fn targets(head: &Head, names: &Names, lets: &Lets) -> Result<Vec<Target>, CallE
         });
     }
     let named = |count: usize| {
-        let names = head.returned_names(count);
+        let names = returned_names(count);
         names.into_iter().map(|name| (lets.of(&name).is_some(), name)).collect::<Vec<_>>()
     };
     let count = head.returned.unwrap_or_else(|| {
@@ -309,7 +309,7 @@ fn known_targets(
             continue;
         }
         let count = targets.len() - head.components(true).len();
-        let mut results = head.returned_names(count);
+        let mut results = returned_names(count);
         results.extend(head.components(true));
         let known = names.inputs.iter().chain(&results).map(String::as_str);
         return Err(CallError::NoTarget {

@@ -3,7 +3,8 @@
 
 use super::body::Syntaxes;
 use super::call::Call;
-use super::signature::{Head, Parameter};
+use super::signature::{Head, Parameter, Signature};
+use super::syntax::Syntax;
 use super::{Code, Language, Snippet, code, glsl, glsl_es, hlsl, osl, wgsl};
 use crate::program::Names;
 use crate::suggest::did_you_mean;
@@ -44,7 +45,11 @@ struct Conventions {
     /// True if results leave by parameters even if there is one.
     by_parameters: bool,
     has_halves: bool,
+    write: Writer,
 }
+
+/// Writes the lines of a file: of halves but for some instructions, where they are given.
+type Writer = fn(&Snippet, half: Option<&[usize]>) -> Vec<String>;
 
 macro_rules! engines {
     ($($(#[$doc:meta])* $engine:ident: $conventions:ident;)*) => {
@@ -99,6 +104,7 @@ const UNITY: Conventions = Conventions {
     roughness: ["perceptualRoughness", "roughness"],
     by_parameters: true,
     has_halves: true,
+    write: unity,
 };
 
 /// Unreal Engine 5: "Custom Material Expressions" of its manual; names as in Karis' articles.
@@ -113,6 +119,7 @@ const UNREAL: Conventions = Conventions {
     roughness: ["Roughness", "Alpha"],
     by_parameters: false,
     has_halves: true,
+    write: unreal,
 };
 
 /// Godot 4: "Shader preprocessor" of its manual; names as in `scene_forward_lights_inc.glsl`.
@@ -127,6 +134,7 @@ const GODOT: Conventions = Conventions {
     roughness: ["roughness", "alpha"],
     by_parameters: false,
     has_halves: true,
+    write: godot,
 };
 
 /// three.js r187: names as in `lights_physical_pars_fragment.glsl.js`.
@@ -141,6 +149,7 @@ const THREE: Conventions = Conventions {
     roughness: ["roughness", "alpha"],
     by_parameters: false,
     has_halves: true,
+    write: three,
 };
 
 /// Babylon.js 9: "Shader Code in Babylon.js" of its manual; names as in `pbrBRDFFunctions`.
@@ -155,6 +164,7 @@ const BABYLON: Conventions = Conventions {
     roughness: ["perceptualRoughness", "alphaG"],
     by_parameters: false,
     has_halves: true,
+    write: babylon,
 };
 
 /// Bevy 0.19: names as in `pbr_lighting.wgsl`, where `roughness` is alpha.
@@ -169,6 +179,7 @@ const BEVY: Conventions = Conventions {
     roughness: ["perceptual_roughness", "roughness"],
     by_parameters: false,
     has_halves: true,
+    write: bevy,
 };
 
 /// Filament 1.5x: names as in its documentation of materials, where `roughness` is alpha.
@@ -183,6 +194,7 @@ const FILAMENT: Conventions = Conventions {
     roughness: ["perceptualRoughness", "roughness"],
     by_parameters: false,
     has_halves: true,
+    write: filament,
 };
 
 /// Blender 4: "Open Shading Language" of its manual.
@@ -197,6 +209,7 @@ const BLENDER: Conventions = Conventions {
     roughness: ["roughness", "alpha"],
     by_parameters: true,
     has_halves: false,
+    write: blender,
 };
 
 /// A name that no engine has.
@@ -291,126 +304,131 @@ impl Engine {
             _ => joined(column, parameters),
         }
     }
+}
 
-    /// Writes the file. Halves are used throughout but for `stay_single`, where it is given.
-    pub(super) fn file(self, snippet: &Snippet, half: Option<&[usize]>) -> String {
-        let written = |syntax, half_syntax, stay: Option<&[usize]>| {
-            let syntaxes = match stay {
-                Some(stay_single) => {
-                    Syntaxes { function: half_syntax, single: syntax, stay_single }
-                }
-                None => Syntaxes::one(syntax),
-            };
-            code(syntaxes, snippet)
-        };
-        let glsl = |stay: Option<&[usize]>| match stay {
-            Some(_) => written(&glsl_es::SYNTAX, &glsl_es::HALF, stay),
-            None => written(&glsl::SYNTAX, &glsl_es::HALF, None),
-        };
-        let function = snippet.function_name();
-        let mut lines = Vec::new();
-        let mut open = |comments: Vec<String>, notes: &[String]| {
-            if snippet.header.is_some() {
-                lines.extend(comments);
-                lines.extend(notes.iter().map(|note| format!("// {note}")));
-            }
-        };
-        match self {
-            Engine::Unity => {
-                let named = |ending: &str, stay: Option<&[usize]>| {
-                    let signature = snippet.signature.map(|signature| super::Signature {
-                        function: format!("{function}_{ending}"),
-                        ..signature.clone()
-                    });
-                    let named = Snippet { signature: signature.as_ref(), ..*snippet };
-                    let syntaxes = match stay {
-                        None => Syntaxes::one(&hlsl::SYNTAX),
-                        Some(stay_single) => Syntaxes {
-                            function: &hlsl::HALF_BY_CAST,
-                            single: &hlsl::SYNTAX,
-                            stay_single,
-                        },
-                    };
-                    code(syntaxes, &named)
-                };
-                let single = named("float", None);
-                let note = format!(
-                    "Custom Function node: type File, name {function}; its precision chooses the function"
-                );
-                open(single.comments, &[note]);
-                let guard = format!("{}_INCLUDED", function.to_ascii_uppercase());
-                lines.extend([
-                    format!("#ifndef {guard}"),
-                    format!("#define {guard}"),
-                    String::new(),
-                ]);
-                lines.extend(single.lines);
-                lines.push(String::new());
-                lines.extend(named("half", Some(half.unwrap_or(&[]))).lines);
-                lines.extend([String::new(), "#endif".to_owned()]);
-            }
-            Engine::Unreal => {
-                let Code { comments, lines: body } =
-                    written(&hlsl::SYNTAX, &hlsl::HALF_BY_CAST, half);
-                open(comments, &custom_node(snippet, &function));
-                lines.extend(["#pragma once".to_owned(), String::new()]);
-                lines.extend(body);
-            }
-            Engine::Godot => {
-                let Code { comments, lines: body } = glsl(half);
-                open(comments, &[]);
-                let guard = format!("{}_INCLUDED", function.to_ascii_uppercase());
-                lines.extend([
-                    format!("#ifndef {guard}"),
-                    format!("#define {guard}"),
-                    String::new(),
-                ]);
-                lines.extend(body);
-                lines.extend([String::new(), "#endif".to_owned()]);
-            }
-            Engine::Three => {
-                let Code { comments, lines: body } = glsl(half);
-                open(comments, &[]);
-                lines.push(format!("export const {function} = /* glsl */`"));
-                lines.extend(body);
-                lines.push("`;".to_owned());
-            }
-            Engine::Babylon => {
-                let Code { comments, lines: body } = glsl(half);
-                open(comments, &[format!("in a shader: #include<{function}>")]);
-                let import = "import { ShaderStore } from \"@babylonjs/core/Engines/shaderStore\";";
-                lines.extend([import.to_owned(), String::new()]);
-                lines.push(format!("ShaderStore.IncludesShadersStore[\"{function}\"] = `"));
-                lines.extend(body);
-                lines.extend(["`;".to_owned(), String::new()]);
-                lines.push(format!("ShaderStore.IncludesShadersStoreWGSL[\"{function}\"] = `"));
-                lines.extend(code(Syntaxes::one(&wgsl::SYNTAX), snippet).lines);
-                lines.push("`;".to_owned());
-            }
-            Engine::Bevy => {
-                let Code { comments, lines: body } = written(&wgsl::SYNTAX, &wgsl::HALF, half);
-                open(comments, &["after Bevy 0.19 leave out the next line".to_owned()]);
-                lines.extend([format!("#define_import_path {function}"), String::new()]);
-                lines.extend(body);
-            }
-            Engine::Filament => {
-                let Code { comments, lines: body } = glsl(half);
-                open(comments, &[]);
-                lines.extend(body);
-            }
-            Engine::Blender => {
-                let Code { comments, lines: body } = code(Syntaxes::one(&osl::SHADER), snippet);
-                open(comments, &[]);
-                lines.extend(body);
-            }
-        }
-        lines.join("\n") + "\n"
+/// Writes a function in one precision or two.
+fn function(
+    snippet: &Snippet,
+    [single, halves]: [&'static Syntax; 2],
+    half: Option<&[usize]>,
+) -> Code {
+    match half {
+        Some(stay_single) => code(Syntaxes { function: halves, single, stay_single }, snippet),
+        None => code(Syntaxes::one(single), snippet),
     }
 }
 
+/// GLSL as it is, or with precisions where it is of halves.
+fn of_glsl(snippet: &Snippet, half: Option<&[usize]>) -> Code {
+    let single = if half.is_some() { &glsl_es::SYNTAX } else { &glsl::SYNTAX };
+    function(snippet, [single, &glsl_es::HALF], half)
+}
+
+/// Returns the comments and notes, unless there are to be none.
+fn opened(snippet: &Snippet, comments: Vec<String>, notes: &[String]) -> Vec<String> {
+    match snippet.header {
+        Some(_) => comments.into_iter().chain(notes.iter().map(|n| format!("// {n}"))).collect(),
+        None => Vec::new(),
+    }
+}
+
+/// Puts lines between those that keep a file from being included twice.
+fn guarded(function: &str, lines: impl IntoIterator<Item = String>) -> Vec<String> {
+    let guard = format!("{}_INCLUDED", function.to_ascii_uppercase());
+    let mut guarded = vec![format!("#ifndef {guard}"), format!("#define {guard}"), String::new()];
+    guarded.extend(lines);
+    guarded.extend([String::new(), "#endif".to_owned()]);
+    guarded
+}
+
+fn unity(snippet: &Snippet, half: Option<&[usize]>) -> Vec<String> {
+    const SYNTAXES: [&Syntax; 2] = [&hlsl::SYNTAX, &hlsl::HALF_BY_CAST];
+    let name = snippet.function_name();
+    let named = |ending: &str, half: Option<&[usize]>| {
+        let signature = snippet.signature.map(|signature| Signature {
+            function: format!("{name}_{ending}"),
+            ..signature.clone()
+        });
+        function(&Snippet { signature: signature.as_ref(), ..*snippet }, SYNTAXES, half)
+    };
+    let (single, halves) = (named("float", None), named("half", Some(half.unwrap_or(&[]))));
+    let note =
+        format!("Custom Function node: type File, name {name}; its precision chooses the function");
+    let mut lines = opened(snippet, single.comments, &[note]);
+    let both = single.lines.into_iter().chain([String::new()]).chain(halves.lines);
+    lines.extend(guarded(&name, both));
+    lines
+}
+
+fn unreal(snippet: &Snippet, half: Option<&[usize]>) -> Vec<String> {
+    let Code { comments, lines: body } =
+        function(snippet, [&hlsl::SYNTAX, &hlsl::HALF_BY_CAST], half);
+    let mut lines = opened(snippet, comments, &custom_node(snippet));
+    lines.extend(["#pragma once".to_owned(), String::new()]);
+    lines.extend(body);
+    lines
+}
+
+fn godot(snippet: &Snippet, half: Option<&[usize]>) -> Vec<String> {
+    let Code { comments, lines: body } = of_glsl(snippet, half);
+    let mut lines = opened(snippet, comments, &[]);
+    lines.extend(guarded(&snippet.function_name(), body));
+    lines
+}
+
+fn three(snippet: &Snippet, half: Option<&[usize]>) -> Vec<String> {
+    let Code { comments, lines: body } = of_glsl(snippet, half);
+    let mut lines = opened(snippet, comments, &[]);
+    lines.push(format!("export const {} = /* glsl */`", snippet.function_name()));
+    lines.extend(body);
+    lines.push("`;".to_owned());
+    lines
+}
+
+fn babylon(snippet: &Snippet, half: Option<&[usize]>) -> Vec<String> {
+    let name = snippet.function_name();
+    let Code { comments, lines: body } = of_glsl(snippet, half);
+    let mut lines = opened(snippet, comments, &[format!("in a shader: #include<{name}>")]);
+    let import = "import { ShaderStore } from \"@babylonjs/core/Engines/shaderStore\";";
+    lines.extend([import.to_owned(), String::new()]);
+    lines.push(format!("ShaderStore.IncludesShadersStore[\"{name}\"] = `"));
+    lines.extend(body);
+    lines.extend(["`;".to_owned(), String::new()]);
+    // WebGPU's halves are a feature that a device may lack.
+    lines.push(format!("ShaderStore.IncludesShadersStoreWGSL[\"{name}\"] = `"));
+    lines.extend(code(Syntaxes::one(&wgsl::SYNTAX), snippet).lines);
+    lines.push("`;".to_owned());
+    lines
+}
+
+fn bevy(snippet: &Snippet, half: Option<&[usize]>) -> Vec<String> {
+    let Code { comments, lines: body } = function(snippet, [&wgsl::SYNTAX, &wgsl::HALF], half);
+    let note = "after Bevy 0.19 leave out the next line".to_owned();
+    let mut lines = opened(snippet, comments, &[note]);
+    lines.push(format!("#define_import_path {}", snippet.function_name()));
+    lines.push(String::new());
+    lines.extend(body);
+    lines
+}
+
+fn filament(snippet: &Snippet, half: Option<&[usize]>) -> Vec<String> {
+    let Code { comments, lines: body } = of_glsl(snippet, half);
+    let mut lines = opened(snippet, comments, &[]);
+    lines.extend(body);
+    lines
+}
+
+fn blender(snippet: &Snippet, _: Option<&[usize]>) -> Vec<String> {
+    let Code { comments, lines: body } = code(Syntaxes::one(&osl::SHADER), snippet);
+    let mut lines = opened(snippet, comments, &[]);
+    lines.extend(body);
+    lines
+}
+
 /// Returns how a Custom node calls the function.
-fn custom_node(snippet: &Snippet, function: &str) -> Vec<String> {
+fn custom_node(snippet: &Snippet) -> Vec<String> {
     let Some(signature) = snippet.signature else { return Vec::new() };
+    let function = &signature.function;
     let inputs: Vec<&str> = signature.parameters.iter().map(|p| p.name.as_str()).collect();
     let inputs = inputs.join(", ");
     vec![
@@ -464,5 +482,6 @@ pub fn emit_for(
         signature: Some(&called.signature),
         header,
     };
-    engine.file(&snippet, half.filter(|_| engine.has_halves()))
+    let half = half.filter(|_| engine.has_halves());
+    (engine.conventions().write)(&snippet, half).join("\n") + "\n"
 }

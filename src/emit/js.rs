@@ -4,8 +4,7 @@ use super::c_family;
 use super::javascript;
 use super::language::{Entry, Form};
 use super::syntax::{
-    Plain, Readable, Spelling, Style, Syntax, WrittenHead, atom, decimal, negation, product,
-    select, sum,
+    Plain, Readable, Spelling, Style, Syntax, WrittenHead, atom, decimal, product, select, sum,
 };
 use crate::op::Op;
 
@@ -38,11 +37,7 @@ pub(super) const SYNTAX: Syntax = Syntax {
 
 fn spelling(op: Op) -> Spelling {
     match op {
-        Op::Add => sum("{a+} + {b*}"),
-        Op::Sub => sum("{a+} - {b*}"),
-        Op::Mul => product("{a*}*{b-}"),
-        Op::Div => product("{a*}/{b-}"),
-        Op::Neg => negation("-{a!}"),
+        Op::Add | Op::Sub | Op::Mul | Op::Div | Op::Neg => c_family::spelling(op),
         Op::Abs => atom("Math.abs({a})"),
         Op::Min => atom("Math.min({a}, {b})"),
         Op::Max => atom("Math.max({a}, {b})"),

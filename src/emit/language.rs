@@ -162,7 +162,7 @@ impl Language {
     }
 
     /// Returns the language of a file, by the longest extension that its name ends with.
-    pub fn of_file(path: &Path) -> Option<Language> {
+    pub(super) fn of_file(path: &Path) -> Option<Language> {
         let name = path.file_name()?.to_str()?.to_ascii_lowercase();
         let of = |language: &&Language| {
             name.strip_suffix(language.extension()).is_some_and(|name| name.ends_with('.'))

@@ -3,7 +3,7 @@
 use super::c_family;
 use super::language::{Entry, Form};
 use super::syntax::{
-    Plain, Readable, Spelling, Style, Syntax, WrittenHead, atom, is_word, negation, product, sum,
+    Plain, Readable, Spelling, Style, Syntax, WrittenHead, atom, is_word, product, sum,
 };
 use crate::op::Op;
 
@@ -37,11 +37,7 @@ pub(super) const SYNTAX: Syntax = Syntax {
 
 fn spelling(op: Op) -> Spelling {
     match op {
-        Op::Add => sum("{a+} + {b*}"),
-        Op::Sub => sum("{a+} - {b*}"),
-        Op::Mul => product("{a*}*{b-}"),
-        Op::Div => product("{a*}/{b-}"),
-        Op::Neg => negation("-{a!}"),
+        Op::Add | Op::Sub | Op::Mul | Op::Div | Op::Neg => c_family::spelling(op),
         Op::Abs => atom("np.abs({a})"),
         Op::Min => atom("np.minimum({a}, {b})"),
         Op::Max => atom("np.maximum({a}, {b})"),

@@ -3,7 +3,7 @@
 use super::c_family;
 use super::language::{Entry, Form};
 use super::syntax::{
-    Readable, Spelling, Style, Syntax, WrittenHead, atom, is_word, negation, product, select, sum,
+    Readable, Spelling, Style, Syntax, WrittenHead, atom, is_word, product, select, sum,
 };
 use crate::op::Op;
 
@@ -38,11 +38,7 @@ pub(super) const SYNTAX: Syntax = Syntax {
 /// what it seems.
 fn spelling(op: Op) -> Spelling {
     match op {
-        Op::Add => sum("{a+} + {b*}"),
-        Op::Sub => sum("{a+} - {b*}"),
-        Op::Mul => product("{a*}*{b-}"),
-        Op::Div => product("{a*}/{b-}"),
-        Op::Neg => negation("-{a!}"),
+        Op::Add | Op::Sub | Op::Mul | Op::Div | Op::Neg => c_family::spelling(op),
         Op::Abs => atom("f32::abs({a})"),
         Op::Min => atom("f32::min({a}, {b})"),
         Op::Max => atom("f32::max({a}, {b})"),

@@ -24,14 +24,13 @@ impl Parameter {
     }
 }
 
-impl Parameter {
-    /// As [`Parameter::components`], with numbers where a vector has no letters.
-    pub(super) fn components_of_any_size(&self) -> Vec<String> {
-        match self.size {
-            0 => Vec::new(),
-            1..=4 => self.components(),
-            size => (0..size).map(|i| format!("{}.{i}", self.name)).collect(),
-        }
+/// Returns the names of so many values that are returned: `return`, or `return.x` and so on, with
+/// numbers where a vector has no letters.
+pub(super) fn returned_names(count: usize) -> Vec<String> {
+    match count {
+        1 => vec!["return".to_owned()],
+        0..=4 => COMPONENTS[..count].iter().map(|c| format!("return.{c}")).collect(),
+        _ => (0..count).map(|i| format!("return.{i}")).collect(),
     }
 }
 
@@ -64,11 +63,6 @@ impl Head {
         let known = self.columns.iter().find(|(known, _)| known == column);
         let named = || component_of(column, &components).map(|place| components[place].clone());
         known.map(|(_, component)| component.clone()).or_else(named)
-    }
-
-    /// Returns the names of what is returned: `return`, or `return.x` and so on.
-    pub(super) fn returned_names(&self, count: usize) -> Vec<String> {
-        Parameter { name: "return".to_owned(), size: count, out: false }.components_of_any_size()
     }
 }
 

@@ -22,7 +22,7 @@ mod tools;
 #[path = "../vulkan/mod.rs"]
 mod vulkan;
 
-use lgp::emit::{Language, Snippet, emit, emit_half, javascript, mathml, read_back};
+use lgp::emit::{Engine, Language, Snippet, emit, emit_half, javascript, mathml, read_back};
 use lgp::op::Op;
 use lgp::program::{Names, Program, parse};
 use programs::EVERY_OPERATION;
@@ -188,10 +188,13 @@ fn no_name_stands_in_what_a_page_takes_for_script_or_elements() {
 }
 
 #[test]
-fn the_guide_names_every_language() {
+fn the_guide_names_every_language_and_engine() {
     let guide = include_str!("../../docs/guide/src/emit.md");
     for language in Language::ALL {
         assert!(guide.contains(&format!("| `{language}` | ")), "{language}");
+    }
+    for engine in Engine::ALL {
+        assert!(guide.contains(&format!("| `{engine}` | ")), "{engine}");
     }
 }
 

@@ -75,7 +75,7 @@ pub(super) struct Contract {
     /// The statements about columns and results.
     lets: Vec<String>,
     /// The outputs in order, of the line that says what is computed of what.
-    outputs: Option<Vec<String>>,
+    outputs: Vec<String>,
 }
 
 impl Contract {
@@ -101,16 +101,16 @@ impl Contract {
         } else if let Some((written, column)) = renamed {
             self.columns.insert(written.trim().to_owned(), unescaped(column));
         } else {
-            if let Some((_, outputs)) = text.split_once(" -> ").filter(|_| self.outputs.is_none()) {
-                self.outputs =
-                    Some(outputs.split(", ").map(|name| name.trim().to_owned()).collect());
+            if let Some((_, outputs)) = text.split_once(" -> ").filter(|_| self.outputs.is_empty())
+            {
+                self.outputs = outputs.split(", ").map(|name| name.trim().to_owned()).collect();
             }
             self.unmarked.push((line, text.to_owned()));
         }
     }
 
-    pub fn outputs(&self) -> Option<&[String]> {
-        self.outputs.as_deref()
+    pub fn outputs(&self) -> &[String] {
+        &self.outputs
     }
 
     pub fn lets(&self) -> &[String] {

@@ -5,6 +5,7 @@ use super::lex::Comment;
 use super::{Contract, Precision, Read, ReadBack, ReadError};
 use crate::emit::Language;
 use crate::emit::latex::{self, COLUMNS};
+use crate::emit::signature::returned_names;
 use crate::program::{Names, effective, parse};
 use std::collections::HashMap;
 
@@ -67,7 +68,7 @@ pub(super) fn read(text: &str) -> Read<ReadBack> {
     let (variant, literal, language) = (None, None, Language::Latex);
     Ok(ReadBack {
         language,
-        returned: names.outputs.len(),
+        places: returned_names(names.outputs.len()),
         program,
         names,
         written,

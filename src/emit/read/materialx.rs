@@ -3,6 +3,7 @@
 use super::lex::Comment;
 use super::{Contract, Precision, Read, ReadBack, ReadError};
 use crate::emit::Language;
+use crate::emit::signature::returned_names;
 use crate::op::Op;
 use crate::program::{Arg, Draft, Names, Program, effective, use_counts};
 use roxmltree::{Document, Node};
@@ -81,7 +82,7 @@ pub(super) fn read(text: &str) -> Read<ReadBack> {
     let (variant, literal, language) = (None, None, Language::MaterialX);
     Ok(ReadBack {
         language,
-        returned: names.outputs.len(),
+        places: returned_names(names.outputs.len()),
         program,
         names,
         written,

@@ -24,7 +24,7 @@ pub(super) use contract::{let_line, name_line};
 pub use file::{language_of, read_file};
 pub use over::Over;
 
-use super::signature::COMPONENTS;
+use super::signature::returned_names;
 use super::{Head, Language, Parameter, Syntax};
 use crate::eval::{Arithmetic, Half};
 use crate::op::{MAX_ARITY, Op};
@@ -81,8 +81,8 @@ pub struct ReadBack {
     pub written: Names,
     /// The precision of each instruction.
     pub precisions: Vec<Precision>,
-    /// The number of outputs that are returned, which come first; others leave by parameters.
-    pub returned: usize,
+    /// Where each output leaves: by `return`, `return.x` and so on, or by a parameter's component.
+    pub places: Vec<String>,
     /// True for a function of halves: its arguments and outputs are halves.
     pub in_half: bool,
     /// The same function in the other precision, where a file has both.
@@ -124,37 +124,23 @@ impl ReadBack {
     /// Says how the results stand in another order than the comments say: `-> scale, bias`, or
     /// `let: return.x = …`. None if they do not.
     pub fn misplaced(&self) -> Option<String> {
-        let returned = &self.names.outputs[..self.returned];
-        let stated = self.contract.outputs();
-        let same = |stated: &&[String]| {
-            stated.len() == returned.len() && returned.iter().all(|name| stated.contains(name))
-        };
-        if let Some(stated) = stated.filter(same)
-            && *stated != *returned
-        {
-            let [found, stated] = [returned, stated].map(|names| names.join(", "));
+        let results = || self.names.outputs.iter().zip(&self.places);
+        // What leaves by parameters has their names.
+        let returned: Vec<&String> = results()
+            .filter(|(_, place)| place.starts_with("return"))
+            .map(|(name, _)| name)
+            .collect();
+        let stated: Vec<&String> = self.contract.outputs().iter().collect();
+        let same =
+            returned.len() == stated.len() && stated.iter().all(|name| returned.contains(name));
+        if same && returned != stated {
+            let [found, stated] = [returned, stated]
+                .map(|names| names.iter().map(|name| name.as_str()).collect::<Vec<_>>().join(", "));
             return Some(format!("it returns {found}, where its comment says {stated}"));
         }
-        let component = |name: &String| {
-            let (_, component) = name.rsplit_once('.')?;
-            COMPONENTS.iter().position(|known| *known == component)
-        };
-        let mut before: Option<(&str, usize)> = None;
-        for name in self.names.outputs.iter().filter(|name| component(name).is_some()) {
-            let (vector, _) = name.rsplit_once('.')?;
-            let place = component(name)?;
-            let expected = before.filter(|(other, _)| *other == vector).map_or(0, |(_, i)| i + 1);
-            // Among components that are columns, those that are said by name keep their places.
-            if place < expected
-                || self.returned == self.names.outputs.len() && {
-                    self.names.outputs.iter().position(|other| other == name) != Some(place)
-                }
-            {
-                return Some(format!("`{name}` stands in another place than its comment says"));
-            }
-            before = Some((vector, place));
-        }
-        None
+        // A column's name has no point.
+        let (name, place) = results().find(|(name, place)| name.contains('.') && name != place)?;
+        Some(format!("`{name}` of its comment stands where `{place}` is"))
     }
 
     /// Evaluates the function in its own precision, halves where it has them.
@@ -371,12 +357,14 @@ impl Reader<'_> {
         contract.restore(&mut names);
         let in_half = self.of == Type::Half;
         let (program, language) = (effective(&program), self.language);
-        let by_parameters: usize = self.parameters.iter().filter(|p| p.out).map(|p| p.size).sum();
-        let returned = names.outputs.len() - by_parameters;
+        let out = self.parameters.iter().filter(|parameter| parameter.out);
+        let out: Vec<String> = out.flat_map(Parameter::components).collect();
+        let mut places = returned_names(names.outputs.len() - out.len());
+        places.extend(out);
         let (variant, literal) = (None, None);
         Ok(ReadBack {
             language,
-            returned,
+            places,
             program,
             names,
             written,

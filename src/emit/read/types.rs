@@ -1,5 +1,6 @@
 //! The types of values, and each language's conversions between them.
 
+use super::lex::Token;
 use super::{Precision, Read, Reader};
 use crate::emit::Language;
 use crate::emit::syntax::Plain;
@@ -33,6 +34,77 @@ impl Float {
 }
 
 impl Reader<'_> {
+    /// Reads `float`, `vec2<f32>`, or `mediump float`.
+    pub(super) fn type_name(&mut self) -> Read<String> {
+        let at = self.offset();
+        let Some(name) = self.take_name() else {
+            return self.error(at, "expected a type");
+        };
+        if self.language == Language::GlslEs && ["highp", "mediump"].contains(&name.as_str()) {
+            let Some(of) = self.take_name() else {
+                return self.error(self.offset(), format!("expected a type after `{name}`"));
+            };
+            return Ok(format!("{name} {of}"));
+        }
+        Ok(self.with_element(name))
+    }
+
+    /// Appends `<f32>` to the name, if it follows.
+    pub(super) fn with_element(&mut self, name: String) -> String {
+        let element = match self.tokens.get(self.next + 1) {
+            Some((_, Token::Name(element))) => element.clone(),
+            _ => return name,
+        };
+        if !self.is_symbol(0, '<') || !self.is_symbol(2, '>') {
+            return name;
+        }
+        self.next += 3;
+        format!("{name}<{element}>")
+    }
+
+    /// Returns the type of a type's components, and their number.
+    pub(super) fn known_type(&self, name: &str) -> Option<(Type, usize)> {
+        let of = |types: &[&str], of: Type| {
+            let size = types.iter().position(|known| *known == name)?;
+            Some((of, size + 1))
+        };
+        let short: [&[&str]; 2] = match self.language {
+            Language::Wgsl => {
+                [&["f32", "vec2f", "vec3f", "vec4f"], &["f16", "vec2h", "vec3h", "vec4h"]]
+            }
+            // Without a qualifier it is highp, in vertex shaders by itself and else by a statement.
+            Language::GlslEs => [self.syntax.constructors, &[]],
+            _ => [&[], &[]],
+        };
+        of(self.syntax.types, Type::Single)
+            .or_else(|| of(self.half?.types, Type::Half))
+            .or_else(|| of(short[0], Type::Single))
+            .or_else(|| of(short[1], Type::Half))
+    }
+
+    /// Returns what a call of a type or of a constructor makes.
+    pub(super) fn made_by(&self, name: &str) -> Option<(Type, usize)> {
+        let of = |names: &[&str], of: Type| {
+            let size = names.iter().position(|known| *known == name)?;
+            Some((of, size + 1))
+        };
+        of(self.syntax.constructors, Type::Single)
+            .or_else(|| of(self.half?.constructors, Type::Half))
+            .or_else(|| self.known_type(name))
+    }
+
+    pub(super) fn unknown_type<T>(&self, name: &str, at: usize, what: &str) -> Read<T> {
+        let float = self.syntax.types.first().copied().unwrap_or("float");
+        let why = match name {
+            "int" | "uint" | "i32" | "u32" | "short" | "long" | "bool" => {
+                ": it holds no fractions, so the code would compute something else"
+            }
+            "double" | "mediump" | "lowp" | "f64" => ": it has another precision than a float",
+            _ => "",
+        };
+        self.error(at, format!("`{name}` cannot be the type of {what}{why}; write `{float}`"))
+    }
+
     /// Returns the type of a number without a suffix.
     pub(super) fn plain_type(&self) -> Type {
         match self.syntax.readable.plain {
