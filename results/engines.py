@@ -1,10 +1,12 @@
 """What engines ship for the DFG terms, measured against the integral: tables of their size and format, sampled
 bilinearly, and their formulas; writes results/engines/shipped.csv.
 
-    python3 results/engines.py     lgp on the PATH; wants numpy; half a minute
+    python3 results/engines.py     after tests/tools/install; lgp on the PATH; wants numpy and pillow; a minute
 """
 
+import base64
 import csv
+import io
 import json
 import pathlib
 import re
@@ -12,6 +14,7 @@ import subprocess
 import tempfile
 
 import numpy as np
+from PIL import Image
 
 from tables import RESULTS
 
@@ -41,7 +44,12 @@ def texture(folder, masking, size):
 def bilinear(texels, n_dot_v, roughness):
     """As GPUs filter with clamped coordinates."""
     size = len(texels)
-    at = [np.clip(x * size - 0.5, 0, size - 1) for x in (n_dot_v, roughness)]
+    return between(texels, *(np.clip(x * size - 0.5, 0, size - 1) for x in (n_dot_v, roughness)))
+
+
+def between(texels, *at):
+    """At texels counted from 0."""
+    size = len(texels)
     low = [np.minimum(np.floor(x).astype(int), size - 2) for x in at]
     t, u = (x - l for x, l in zip(at, low))
     i, k = low
@@ -65,6 +73,57 @@ def of_texture(folder, truth, masking, size, order, dtype):
     stored = [scale, bias] if order == "scale, bias" else [bias, scale + bias]
     first, second = (bilinear(x.astype(dtype).astype(float), truth["n_dot_v"], truth["roughness"]) for x in stored)
     return [first, second] if order == "scale, bias" else [second - first, first]
+
+
+def sampled(n_dot_v, roughness, side=128):
+    """scale and bias of one view by visible normals (Heitz 2018), of correlated Smith masking: side * side strata."""
+    alpha = roughness**2
+    t = (np.arange(side) + 0.5) / side
+    # Most strata at the rim of the disk, where smooth surfaces have their tails.
+    radius, phi = np.meshgrid(np.sqrt(1 - (1 - t) ** 4), 2 * np.pi * t)
+    measure = 4 * (1 - t) ** 3 / side**2
+    view = np.array([np.sqrt(1 - n_dot_v**2), 0, n_dot_v])
+    stretched = view * [alpha, alpha, 1]
+    stretched /= np.linalg.norm(stretched)
+    # The tangent frame of a view in the plane y = 0.
+    across, along = np.array([0.0, 1.0, 0.0]), np.cross(stretched, [0.0, 1.0, 0.0])
+    x, y = radius * np.cos(phi), radius * np.sin(phi)
+    lift = 0.5 * (1 + stretched[2])
+    y = (1 - lift) * np.sqrt(1 - x**2) + lift * y
+    normal = x[..., None] * across + y[..., None] * along
+    normal = normal + np.sqrt(np.maximum(0, 1 - x**2 - y**2))[..., None] * stretched
+    half = normal * [alpha, alpha, 1]
+    half[..., 2] = np.maximum(half[..., 2], 0)
+    half /= np.linalg.norm(half, axis=-1, keepdims=True)
+    v_dot_h = half @ view
+    n_dot_l = (2 * v_dot_h[..., None] * half - view)[..., 2]
+    smith = lambda cosine: 0.5 * (np.sqrt(1 + alpha**2 * (1 / np.maximum(cosine, 1e-9) ** 2 - 1)) - 1)
+    weight = np.where(n_dot_l > 0, (1 + smith(n_dot_v)) / (1 + smith(n_dot_v) + smith(n_dot_l)), 0)
+    bias = np.sum(measure * weight * (1 - v_dot_h) ** 5)
+    return np.sum(measure * weight) - bias, bias
+
+
+def of_eevee(truth, size=64):
+    """Blender's texels cover 0 to 1 with the edges, over roughness and sqrt(1 - n_dot_v); its generator clamps both."""
+    node = np.linspace(0, 1, size)
+    clamped = lambda x: np.clip(x, 1e-4, 0.9999)
+    texels = [[sampled(clamped(1 - y**2), clamped(x)) for x in node] for y in node]
+    stored = np.array(texels).astype(np.float16).astype(float)
+    at = [np.sqrt(1 - truth["n_dot_v"]) * (size - 1), truth["roughness"] * (size - 1)]
+    return [between(stored[..., i], *at) for i in (0, 1)]
+
+
+def of_babylon(truth):
+    """The table itself, of Babylon.js from npm: x is what Schlick's weight leaves, y all; each pixel has a divisor, and
+    is expanded to halves."""
+    script = (RESULTS.parent / "target/tools/node_modules/babylonjs/babylon.js").read_text()
+    pictures = re.findall(r"iVBOR[A-Za-z0-9+/=]{5000,}", script)
+    pictures = [Image.open(io.BytesIO(base64.b64decode(text))) for text in pictures]
+    (picture,) = [picture for picture in pictures if picture.size == (256, 256)]
+    pixels = np.asarray(picture).astype(float) / 255
+    stored = (pixels[..., :2] ** 2.2 / pixels[..., 3:]).astype(np.float16).astype(float)
+    first, second = (bilinear(stored[..., i].T, truth["n_dot_v"], truth["roughness"]) for i in (0, 1))
+    return [second - first, first]
 
 
 def formula(name, incumbents):
@@ -107,6 +166,12 @@ def main():
             rmse, largest = errors(found, truths[masking])
             kind = f"{size} x {size}, {order}"
             rows.append([engine, kind, f"{rmse:.5f}", f"{largest:.4f}", size * size * texel] + [""] * 6)
+        for engine, kind, found, size in [
+            ("Babylon.js 9", "256 x 256, Filament's, 8 bits and a divisor", of_babylon(truths["correlated"]), 256 * 256 * 8),
+            ("Blender, EEVEE", "64 x 64 with edges, sqrt(1 - n_dot_v)", of_eevee(truths["correlated"]), 64 * 64 * 8),
+        ]:
+            rmse, largest = errors(found, truths["correlated"])
+            rows.append([engine, kind, f"{rmse:.5f}", f"{largest:.4f}", size] + [""] * 6)
     for engine, name, incumbents, dataset in FORMULAS:
         (rmse, largest), costs = of_formula(formula(name, incumbents), dataset)
         cells = [cell for cost in costs for cell in cost]

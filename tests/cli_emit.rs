@@ -125,9 +125,65 @@ fn a_function_under_a_given_head_is_verified() {
                 "cpp",
                 "--clamp-inputs",
                 "--signature",
-                "void EnvDFG(float roughness, float nov, float &scale, float &bias)",
+                "static inline void EnvDFG(float roughness, float nov, float &scale, float &bias)",
             ],
-            "inline void EnvDFG(",
+            "static inline void EnvDFG(",
+        ),
+        (
+            "k.c",
+            &[
+                "--lang",
+                "c",
+                "--signature",
+                "static void env(float roughness, float nov, float *scale, float *bias)",
+            ],
+            "    *bias = ",
+        ),
+        (
+            "l.wgsl",
+            &[
+                "--lang",
+                "wgsl",
+                "--signature",
+                "fn env(roughness: f32, nov: f32, dfg: ptr<function, vec2<f32>>)",
+                "--let",
+                "dfg.x = scale; dfg.y = bias",
+            ],
+            "    *dfg = vec2<f32>(",
+        ),
+        (
+            "m.rs",
+            &[
+                "--lang",
+                "rust",
+                "--signature",
+                "fn env(roughness: f32, nov: f32, scale: &mut f32, bias: &mut f32)",
+            ],
+            "    *scale = ",
+        ),
+        (
+            "n.hlsl",
+            &[
+                "--lang",
+                "hlsl",
+                "--signature",
+                "float3 Env(float3 F0, float rough, float3 N, float4 V, float unused)",
+                "--let",
+                "n_dot_v = saturate(dot(N, normalize(V.xyz))); roughness = rough",
+                "--let",
+                "return = F0.rgb*scale + bias",
+            ],
+            "float3 Env(float3 F0, float rough, float3 N, float4 V, float unused) {",
+        ),
+        (
+            "o.tsl.js",
+            &["--lang", "tsl", "--signature", "const env = Fn(([roughness, dotNV]) => {"],
+            "\nconst env = Fn(([roughness, dotNV]) => {",
+        ),
+        (
+            "p.js",
+            &["--lang", "js", "--signature", "function env(roughness, dotNV)"],
+            "\nfunction env(roughness, dotNV) {",
         ),
         (
             "g.py",
@@ -145,6 +201,45 @@ fn a_function_under_a_given_head_is_verified() {
         let code = is_verified(file, form, AS_COMMENTED);
         assert!(code.contains(line), "{code}");
     }
+}
+
+#[test]
+fn what_no_comment_says_is_said_to_verify() {
+    let folder = tempfile::tempdir().unwrap();
+    let head = ["--signature", "vec2 env(float alpha, float nov)", "--no-comments"];
+    let lets = ["--let", "roughness = sqrt(alpha)"];
+    let path = folder.path().join("env.glsl");
+    let out = ["-o", path.to_str().unwrap()];
+    let emit = lgp_here(&[&["emit", RUN, "--lang", "glsl"], &head[..], &lets, &out].concat());
+    assert!(emit.status.success(), "{}", text(&emit.stderr));
+    let verify = |lets: &[&str]| {
+        let arguments = ["verify", path.to_str().unwrap(), DATA, "--max-error", "0.1"];
+        lgp_here(&[&arguments[..], lets].concat())
+    };
+    let without = verify(&[]);
+    assert!(text(&without.stderr).contains("takes `alpha`"), "{}", text(&without.stderr));
+    let with = verify(&[&lets[..], &["--outputs", "scale,bias"]].concat());
+    assert!(with.status.success(), "{}", text(&with.stderr));
+}
+
+#[test]
+fn outputs_that_are_derived_of_the_data_are_verified_by_it() {
+    let folder = tempfile::tempdir().unwrap();
+    let [run, path] = ["run", "dfg.glsl"].map(|name| folder.path().join(name));
+    let [run, path] = [&run, &path].map(|path| path.to_str().unwrap());
+    let derived = ["--derive", "total = scale + bias", "--outputs", "bias,total"];
+    let short = ["--generations", "2", "--out", run, "-q"];
+    let search = lgp_here(&[&["search", DATA], &derived[..], &short].concat());
+    assert!(search.status.success(), "{}", text(&search.stderr));
+    let head = ["--signature", "vec2 dfg(float roughness, float NoV)"];
+    let lets = ["--let", "return.x = max(total - bias, 0); return.y = bias"];
+    let emit = lgp_here(&[&["emit", run, "--lang", "glsl", "-o", path], &head[..], &lets].concat());
+    assert!(emit.status.success(), "{}", text(&emit.stderr));
+    let code = std::fs::read_to_string(path).unwrap();
+    assert!(code.contains("// derived: total = scale + bias\n"), "{code}");
+    let verify = lgp_here(&["verify", path, DATA, "--max-error", "1"]);
+    assert!(verify.status.success(), "{}", text(&verify.stderr));
+    assert!(text(&verify.stdout).contains(AS_COMMENTED), "{}", text(&verify.stdout));
 }
 
 #[test]
@@ -255,6 +350,24 @@ fn what_does_not_fit_is_refused_with_its_remedy() {
     for (form, expected) in [
         (&["--signature", "float2 f(float rough, float nov)"][..], "--let \"roughness = …\""),
         (&["--signature", "float3 f(float roughness, float nov)"], "3 values are returned"),
+        (
+            &["--signature", "float f(float roughness, float nov)"],
+            "1 value is returned, but 2 outputs are left for it (scale, bias)",
+        ),
+        (
+            &[
+                "--signature",
+                "float3 f(float2 f0, float roughness, float nov)",
+                "--let",
+                "return = f0*scale",
+            ],
+            "`return` has 3 components, but is given 2",
+        ),
+        (
+            &["--signature", "float2 f(float2 uv)", "--let", "n_dot_v = uv.z; roughness = uv.x"],
+            "`uv` has the components `xy`, and no `z`\n  uv.z",
+        ),
+        (&["--let", "roughness = n_dot_v/0"], "no values of the parameters make it one in [0, 1]"),
         (&["--signature", "half2 f(half roughness, half nov)"], "give --half or --half-error"),
         (&["--signature", "float2 sample(float roughness, float nov)"], "`sample` means something"),
         (&["--signature", "float2 f(float roughness, float nov"], "expected `,`"),

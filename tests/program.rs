@@ -234,6 +234,33 @@ fn text_is_read_as_shader_programmers_write_it() {
 }
 
 #[test]
+fn vectors_have_components_lengths_and_products() {
+    let names = Names::new(["x", "y", "z"], ["f"]);
+    let check = |text: &str, expected: f32| {
+        let found = parse(text, &names).unwrap().evaluate(&[3.0, 4.0, 12.0])[0];
+        assert!((found - expected).abs() <= 1e-6 * expected.abs(), "{text}: {found}");
+    };
+    check("v = (x, y, z); f = v.x + 10*v.y + 100*v.z", 1243.0);
+    check("v = (x, y, z); w = v.zyx; u = w.gb; f = w.r + 10*u.y", 42.0);
+    check("v = (x, y, z); f = dot(v, v.yxz)", 168.0);
+    check("f = length((x, y, z)) + length(-x)", 16.0);
+    check("v = (x, y, z); n = normalize(v); f = dot(n, v)", 13.0);
+    check("g(v) = v.y*v.w; f = g((x, y, z, x))", 12.0);
+    let error = |text: &str| parse(text, &names).unwrap_err().to_string();
+    for (text, expected) in [
+        ("f = x.y", "`x` is one value, and has no components `y`"),
+        ("v = (x, y); f = v.z", "`v` has the components `xy`, and no `z`"),
+        ("v = (x, y); f = v.xg", "`v` has the components `xy`, and no `xg`"),
+        ("f = w.x", "unknown name `w`"),
+        ("v = (x, y); v.x = 1; f = v.y", "components cannot be assigned; assign all of `v`"),
+        ("f = dot((x, y), (x, y, z))", "do not go together"),
+        ("f = dot(x)", "`dot` takes 2 arguments, not 1"),
+    ] {
+        assert!(error(text).contains(expected), "{text}: {}", error(text));
+    }
+}
+
+#[test]
 fn errors_say_where_and_what_was_meant() {
     let names = Names::new(["n_dot_v", "roughness"], ["bias"]);
     let error = |text: &str| parse(text, &names).unwrap_err().to_string();

@@ -160,7 +160,7 @@ fn form(args: &Args) -> Result<Form, Failure> {
         if in_half != halves && tells {
             let message = match in_half {
                 true => "--signature is of halves: give --half or --half-error, too",
-                false => "--signature is of floats, and --half asks for halves: write their types",
+                false => "--signature is of floats, but halves are asked for: write their types",
             };
             return Err(usage(message.to_owned()));
         }
@@ -177,9 +177,10 @@ fn half(form: &Form, called: &Called, bound: Option<f64>) -> Result<Vec<usize>, 
     };
     if !has_halves {
         let known = Language::names(&Language::with_halves(), "and");
+        let option = if bound.is_some() { "--half-error" } else { "--half" };
         let message = match form.target {
-            Target::Language(language) => format!("--half: {language} has no halves; {known} do"),
-            Target::Engine(engine) => format!("--half: {engine} has no halves"),
+            Target::Language(language) => format!("{option}: {language} has no halves; {known} do"),
+            Target::Engine(engine) => format!("{option}: {engine} has no halves"),
         };
         return Err(Failure::usage(message));
     }

@@ -70,6 +70,17 @@ impl Sampled {
         self.refuse_all_but_set()
     }
 
+    /// As [`Sampled::refuse_functions`], where `--let` has a meaning of its own.
+    pub fn refuse_all_but_lets(&self) -> Result<(), Failure> {
+        let kinds: [&[&str]; 2] = [&["--set", "--entry"], SAMPLED];
+        self.refuse(&kinds, "is for a function of a shader")
+    }
+
+    /// Returns what `--let` says.
+    pub fn lets(&self) -> &[String] {
+        &self.define
+    }
+
     /// As [`Sampled::refuse_functions`], where `--set` has a meaning of its own.
     pub fn refuse_all_but_set(&self) -> Result<(), Failure> {
         let kinds: [&[&str]; 2] = [&["--entry", "--let"], SAMPLED];

@@ -79,7 +79,7 @@ struct Verified {
 pub fn run(args: &Args, common: &Common) -> Result<(), Failure> {
     match &args.dataset {
         Some(dataset) => {
-            args.sampled.refuse_functions()?;
+            args.sampled.refuse_all_but_lets()?;
             snippet_on(args, dataset, common)
         }
         None => against::run(args, common),
@@ -90,12 +90,18 @@ fn snippet_on(args: &Args, dataset: &Path, common: &Common) -> Result<(), Failur
     named_after_a_language(&args.snippet)?;
     let text = snippet_text(&args.snippet)?;
     let read = read_file(&args.snippet, &text).expect("its name says what it is");
-    let (language, code) = read.map_err(|error| unusable(&args.snippet, &error))?;
-    let Subject { dataset: whole, .. } =
-        Subject::load(dataset, args.scene.as_deref(), |data| Ok(data.clone()))?;
+    let (language, mut code) = read.map_err(|error| unusable(&args.snippet, &error))?;
+    code.add_lets(args.sampled.lets());
+    let Subject { dataset: whole, .. } = Subject::load_with(
+        dataset,
+        args.scene.as_deref(),
+        code.derived(),
+        |data| Ok(data.clone()),
+    )?;
     let code = &code;
     let refused = |error: CallError| unusable(&args.snippet, &error);
-    if !code.lets().map_err(refused)?.is_empty() {
+    let known: Vec<String> = whole.inputs.iter().map(|column| column.name.clone()).collect();
+    if !code.lets().map_err(refused)?.is_empty() || code.unread(&known).next().is_some() {
         return adapted(args, code, &whole, common);
     }
     let names = columns(code.names.clone(), args.outputs.as_deref(), &whole, &args.snippet)?;

@@ -54,9 +54,49 @@ impl Arguments {
         Ok(arguments)
     }
 
+    /// Checks that parameters make each column somewhere what it can be: at an end of its domain,
+    /// or in the middle.
+    ///
+    /// # Errors
+    /// [`CallError::Unreachable`].
+    pub fn reach(
+        &self,
+        columns: &[String],
+        lets: &Lets,
+        domains: &[[f64; 2]],
+    ) -> Result<(), CallError> {
+        for (column, program, reads) in &self.made {
+            let [low, high] = domains[*column];
+            let reached = |target: f64| {
+                let (last, others) = reads.split_last()?;
+                let mut values = vec![None; self.components.len()];
+                others.iter().for_each(|&other| values[other] = Some(self.usual(other, 0)));
+                solved(program, &values, *last, target)
+            };
+            let constant = || {
+                let value = Double.evaluate(program, &vec![0.0; self.components.len()])[0];
+                reads.is_empty() && (low..=high).contains(&value)
+            };
+            if [low, high, 0.5 * (low + high)].into_iter().all(|x| reached(x).is_none())
+                && !constant()
+            {
+                let column = columns[*column].clone();
+                let text = lets.of(&column).unwrap_or_default().to_owned();
+                return Err(CallError::Unreachable { column, text, low, high });
+            }
+        }
+        Ok(())
+    }
+
     /// Returns the components' values for a row of columns; none if some column cannot be made of
     /// any. What no column depends on takes values of a sequence, by the row's number.
     pub fn at(&self, row: &[f32], number: usize) -> Option<Vec<f32>> {
+        // By hand: vectors that point away from each other have no large dot product.
+        const TRIES: usize = 64;
+        (0..TRIES).find_map(|i| self.tried(row, number.wrapping_add(i * 7919)))
+    }
+
+    fn tried(&self, row: &[f32], number: usize) -> Option<Vec<f32>> {
         let mut values: Vec<Option<f64>> =
             self.columns.iter().map(|column| column.map(|i| f64::from(row[i]))).collect();
         let mut left: Vec<&(usize, Program, Vec<usize>)> = self.made.iter().collect();
@@ -105,11 +145,11 @@ impl Arguments {
     }
 
     /// Returns the value of a component that may have any: of each row others, so that none may be
-    /// left out unseen; vectors point along z, more or less.
+    /// left out unseen; vectors point along z, more or less, and are of length 1, more or less.
     fn usual(&self, component: usize, number: usize) -> f64 {
         let share = spread(component, number);
         match self.components[component].rsplit_once('.') {
-            Some((_, "z")) => 0.75 + 0.25 * share,
+            Some((_, "z")) => 0.75 + 0.5 * share,
             Some(_) => 0.5 * (share - 0.5),
             None => share,
         }
@@ -212,6 +252,27 @@ mod tests {
         let dot: f32 = (0..3).map(|i| found[i] * found[3 + i]).sum();
         assert!((dot - 0.3).abs() < 1e-6 && (0.0..1.0).contains(&found[6]), "{found:?}");
         assert!(found[..5].iter().all(|component| component.abs() > 1e-3), "{found:?}");
+    }
+
+    #[test]
+    fn normalised_vectors_reach_all_of_the_domain() {
+        let components = ["n.x", "n.y", "n.z", "v.x", "v.y", "v.z"];
+        let lets = ["n_dot_v = saturate(dot(n, normalize(v)))"];
+        let arguments = arguments(&components, &["n_dot_v"], &lets);
+        for row in 0..=200 {
+            assert!(arguments.at(&[row as f32 / 200.0], row).is_some(), "row {row}");
+        }
+    }
+
+    #[test]
+    fn a_column_that_is_never_in_its_domain_is_refused() {
+        let text = "alpha = roughness/0";
+        let lets = Lets::parse(&[text.to_owned()]).unwrap();
+        let names = |name: &str| vec![name.to_owned()];
+        let (components, columns) = (names("roughness"), names("alpha"));
+        let arguments = Arguments::of(&components, &columns, &[], &lets).unwrap();
+        let error = arguments.reach(&columns, &lets, &[[0.0, 1.0]]).unwrap_err().to_string();
+        assert!(error.contains("no values of the parameters make it one in [0, 1]"), "{error}");
     }
 
     #[test]

@@ -186,7 +186,13 @@ impl Body<'_, '_> {
             }
         };
         let same = syntax.half == self.syntaxes.function.half;
-        if let Some(output) = output.filter(|_| same) {
+        let by_pointer = self.syntaxes.function.out_by_pointer;
+        let is_read = |output: &usize| count > 1 && by_pointer && self.head.is_parameter(*output);
+        if let Some(output) = output.filter(|output| same && is_read(output)) {
+            self.name(&mut code);
+            let value = code.written.text.clone();
+            self.output(output, &value, syntax);
+        } else if let Some(output) = output.filter(|_| same) {
             code = self.output(output, &code.written.text, syntax);
         } else if count > 1 && code.in_place {
             self.name(&mut code);
@@ -204,7 +210,8 @@ impl Body<'_, '_> {
         if !self.head.is_parameter(output) {
             return self.declare(name, value, syntax);
         }
-        self.statements.push(format!("{name} = {value};"));
+        let sign = if self.syntaxes.function.out_by_pointer { "*" } else { "" };
+        self.statements.push(format!("{sign}{name} = {value};"));
         Code::name(name, syntax)
     }
 

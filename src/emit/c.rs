@@ -17,6 +17,8 @@ pub(super) const LANGUAGE: Entry = Entry {
 
 pub(super) const SYNTAX: Syntax = Syntax {
     types: &["float"],
+    out_parameter: Some(|of, name| format!("{of} *{name}")),
+    out_by_pointer: true,
     spelling,
     reserved,
     literal: |value| decimal(value) + "f",
@@ -80,7 +82,7 @@ fn open(syntax: &Syntax, head: &WrittenHead, lines: &mut Vec<String>) {
     let returned = c_family::returned_type(syntax, head);
     if returned == head.structure {
         lines.push("typedef struct {".to_owned());
-        lines.extend(c_family::members(syntax, &head.outputs));
+        lines.extend(c_family::members(syntax, &head.outputs[..head.returned]));
         lines.push(format!("}} {returned};"));
         lines.push(String::new());
     }

@@ -14,6 +14,7 @@ pub(super) const SYNTAX: Syntax = Syntax {
     conversion: Conversion::Cast,
     parameter: |of, name| format!("{of} {name}"),
     out_parameter: None,
+    out_by_pointer: false,
     outputs_by_parameters: false,
     spelling,
     power: None,
@@ -107,6 +108,12 @@ pub(super) fn members(syntax: &Syntax, outputs: &[String]) -> Vec<String> {
 }
 
 pub(super) fn first_line(syntax: &Syntax, head: &WrittenHead, returned: &str) -> String {
+    let (qualifiers, function) = (head.qualified(""), &head.function);
+    format!("{qualifiers}{returned} {function}({}) {{", parameters(syntax, head))
+}
+
+/// Lists the parameters.
+pub(super) fn parameters(syntax: &Syntax, head: &WrittenHead) -> String {
     let parameters = head.parameters.iter().map(|parameter| {
         let of = syntax.types[parameter.size - 1];
         match (parameter.out, syntax.out_parameter) {
@@ -114,7 +121,7 @@ pub(super) fn first_line(syntax: &Syntax, head: &WrittenHead, returned: &str) ->
             _ => (syntax.parameter)(of, &parameter.name),
         }
     });
-    format!("{returned} {}({}) {{", head.function, parameters.collect::<Vec<_>>().join(", "))
+    parameters.collect::<Vec<_>>().join(", ")
 }
 
 pub(super) fn close(syntax: &Syntax, head: &WrittenHead, lines: &mut Vec<String>) {
@@ -135,7 +142,8 @@ pub(super) fn assigned_vectors(syntax: &Syntax, head: &WrittenHead) -> Vec<Strin
     let assigned = vectors.map(|(parameter, outputs)| {
         let (vector, values) =
             (syntax.constructor(parameter.size), head.outputs[outputs].join(", "));
-        format!("    {} = {vector}({values});", parameter.name)
+        let sign = if syntax.out_by_pointer { "*" } else { "" };
+        format!("    {sign}{} = {vector}({values});", parameter.name)
     });
     assigned.collect()
 }

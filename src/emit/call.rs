@@ -2,8 +2,8 @@
 //! vectors, or computed from what is given; its outputs as what a caller expects.
 
 use super::read::{let_line, name_line};
-use super::signature::{Head, Signature, returned_names};
-use crate::program::{Arg, Draft, Names, ParseError, Program, effective, parse};
+use super::signature::{Head, Signature, returned_names, vector_of, vectors};
+use crate::program::{Arg, Draft, Names, ParseError, Program, effective, parse_expression};
 use crate::suggest::did_you_mean;
 
 /// What is said of inputs and results: `alpha = roughness*roughness` of a column, over parameters;
@@ -25,7 +25,7 @@ pub struct Call {
 }
 
 /// A head that does not fit the program.
-#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[allow(missing_docs, reason = "each message names its fields")]
 pub enum CallError {
     /// A statement without `=`.
@@ -44,7 +44,7 @@ pub enum CallError {
     #[error("`{target}` is neither an input ({inputs}) nor a result ({results}){hint}")]
     NoTarget { target: String, inputs: String, results: String, hint: String },
     /// An expression that cannot be read.
-    #[error("`{target} = {text}`: {error}")]
+    #[error("`{target} = {text}`: {}", error.to_string().trim_start_matches("formula, line 1, "))]
     Expression { target: String, text: String, error: Box<ParseError> },
     /// A parameter that results leave by, which is called like no output.
     #[error(
@@ -53,10 +53,32 @@ pub enum CallError {
     NoOutput { name: String, outputs: String },
     /// Other numbers of results than of outputs.
     #[error(
-        "{returned} values are returned, but {outputs} outputs are left for them ({names}); say what they \
-         are, as by `--let \"return.x = {first}\"`"
+        "{}, but {} left for {} ({names}); say what {} by `--let \"{target} = {first}\"`",
+        counted(*.returned, "value is", "values are") + " returned",
+        counted(*.outputs, "output is", "outputs are"),
+        if *.returned == 1 { "it" } else { "them" },
+        if *.returned == 1 { "it is" } else { "they are" },
     )]
-    Returned { returned: usize, outputs: usize, names: String, first: String },
+    Returned { returned: usize, outputs: usize, names: String, first: String, target: String },
+    /// A value of another number of components than is said to be it.
+    #[error(
+        "`{target}` has {}, but is given {found}",
+        counted(*.size, "component", "components")
+    )]
+    Width { target: String, size: usize, found: usize },
+    /// No parameters make a column what it can be.
+    #[error(
+        "`{column} = {text}`: no values of the parameters make it one in [{low}, {high}], which is its domain"
+    )]
+    Unreachable { column: String, text: String, low: f64, high: f64 },
+}
+
+fn counted(count: usize, one: &str, several: &str) -> String {
+    match count {
+        0 => format!("no {one}"),
+        1 => format!("1 {one}"),
+        count => format!("{count} {several}"),
+    }
 }
 
 impl Lets {
@@ -102,6 +124,17 @@ impl Lets {
         self.0.iter().find(|(name, _)| name == target).map(|(_, expression)| &**expression)
     }
 
+    /// Returns what is said of a result: of itself, or of the vector that it is a component of.
+    pub(super) fn about<'a>(&self, name: &'a str) -> Option<(&'a str, usize)> {
+        let itself = || self.of(name).map(|_| (name, 0));
+        itself().or_else(|| vector_of(name).filter(|(vector, _)| self.of(vector).is_some()))
+    }
+
+    fn target(&self, name: &str) -> Option<Target> {
+        let (about, place) = self.about(name)?;
+        Some(Target::Let { name: name.to_owned(), about: about.to_owned(), place })
+    }
+
     /// Returns true if there are none.
     pub fn is_empty(&self) -> bool {
         self.0.is_empty()
@@ -123,27 +156,28 @@ pub fn call(program: &Program, names: &Names, head: &Head, lets: &Lets) -> Resul
     let (inputs, mut comments) = inputs(&mut draft, program, names, head, lets)?;
     let outputs = draft.append(program, &inputs);
     let targets = targets(head, names, lets)?;
-    let scope = Scope { components: &components, names, inputs: &inputs, outputs: &outputs };
+    known_targets(lets, names, head, &targets)?;
+    let scope = Scope::default().and(&names.outputs, &outputs);
+    let scope = scope.or(Scope::of_components(&components)).and(&names.inputs, &inputs);
     let mut results = Vec::new();
     for target in &targets {
-        results.push(match target {
-            Target::Output(output) => {
-                draft.outputs.push(outputs[*output]);
-                names.outputs[*output].clone()
+        let (value, name) = match target {
+            Target::Output(output) => (outputs[*output], names.outputs[*output].clone()),
+            Target::Let { name, about, place } => {
+                let values = scope.values(&mut draft, about, lets.of(about).unwrap_or_default())?;
+                let size = targets.iter().filter(|other| other.is_about(about)).count();
+                (component(about, &values, *place, size)?, name.clone())
             }
-            Target::Let(name) => {
-                let value = scope.value(&mut draft, name, lets.of(name).unwrap_or_default())?;
-                draft.outputs.push(value);
-                name.clone()
-            }
-        });
+        };
+        draft.outputs.push(value);
+        results.push(name);
     }
-    known_targets(lets, names, head, &targets)?;
     comments.extend(lets.lines());
     let out = head.parameters.iter().filter(|parameter| parameter.out);
     let returned = targets.len() - out.map(|parameter| parameter.size).sum::<usize>();
     let signature = Signature {
         function: head.function.clone(),
+        qualifiers: head.qualifiers.clone(),
         parameters: head.parameters.clone(),
         returned,
     };
@@ -156,7 +190,19 @@ pub fn call(program: &Program, names: &Names, head: &Head, lets: &Lets) -> Resul
 #[derive(Clone, Debug, PartialEq)]
 enum Target {
     Output(usize),
-    Let(String),
+    /// What a statement says: about itself, or about the vector of which it is the component at
+    /// this place.
+    Let {
+        name: String,
+        about: String,
+        place: usize,
+    },
+}
+
+impl Target {
+    fn is_about(&self, name: &str) -> bool {
+        matches!(self, Target::Let { about, .. } if about == name)
+    }
 }
 
 /// Returns the value of each column, and comments on those that are called otherwise.
@@ -172,9 +218,7 @@ fn inputs(
     let (mut values, mut comments) = (Vec::new(), Vec::new());
     for (i, column) in names.inputs.iter().enumerate() {
         if let Some(text) = lets.of(column) {
-            let given = Names { inputs: components.to_vec(), outputs: Vec::new() };
-            let scope = Scope { components, names: &given, inputs: &[], outputs: &[] };
-            values.push(scope.value(draft, column, text)?);
+            values.push(Scope::of_components(components).value(draft, column, text)?);
             continue;
         }
         let known = head.columns.iter().find(|(known, _)| known == column);
@@ -246,8 +290,8 @@ fn targets(head: &Head, names: &Names, lets: &Lets) -> Result<Vec<Target>, CallE
     let mut left: Vec<usize> = (0..names.outputs.len()).collect();
     let mut by_parameters = Vec::new();
     for name in &outs {
-        by_parameters.push(match (lets.of(name), component_of(name, &names.outputs)) {
-            (Some(_), _) => Target::Let(name.clone()),
+        by_parameters.push(match (lets.target(name), component_of(name, &names.outputs)) {
+            (Some(target), _) => target,
             (None, Some(output)) => {
                 left.retain(|other| *other != output);
                 Target::Output(output)
@@ -260,22 +304,20 @@ fn targets(head: &Head, names: &Names, lets: &Lets) -> Result<Vec<Target>, CallE
     }
     let named = |count: usize| {
         let names = returned_names(count);
-        names.into_iter().map(|name| (lets.of(&name).is_some(), name)).collect::<Vec<_>>()
+        names.iter().map(|name| lets.target(name)).collect::<Vec<_>>()
     };
     let count = head.returned.unwrap_or_else(|| {
-        let said = (1..=4).rev().find(|&n| named(n).iter().all(|(said, _)| *said));
+        let said = (1..=4).rev().find(|&n| named(n).iter().all(Option::is_some));
         said.unwrap_or(left.len())
     });
     let mut returned = Vec::new();
     let mut rest = left.iter();
-    for (said, name) in named(count) {
+    for said in named(count) {
         match (said, rest.next()) {
-            (true, _) => {
-                // Where one is said by a name, all others are in the order of what is left.
-                returned.push(Target::Let(name));
-            }
-            (false, Some(&output)) => returned.push(Target::Output(output)),
-            (false, None) => return Err(wrong_count(count, &left, names)),
+            // Where one is said by a name, all others are in the order of what is left.
+            (Some(target), _) => returned.push(target),
+            (None, Some(&output)) => returned.push(Target::Output(output)),
+            (None, None) => return Err(wrong_count(count, &left, names)),
         }
     }
     let said_none = returned.iter().all(|target| matches!(target, Target::Output(_)));
@@ -293,6 +335,7 @@ fn wrong_count(returned: usize, left: &[usize], names: &Names) -> CallError {
         outputs: left.len(),
         names: listed(&left_names),
         first: names.outputs.first().cloned().unwrap_or_default(),
+        target: returned_names(returned.max(1)).swap_remove(0),
     }
 }
 
@@ -305,7 +348,7 @@ fn known_targets(
 ) -> Result<(), CallError> {
     for (target, _) in &lets.0 {
         let is_input = names.inputs.contains(target);
-        if is_input || targets.contains(&Target::Let(target.clone())) {
+        if is_input || targets.iter().any(|known| known.is_about(target)) {
             continue;
         }
         let count = targets.len() - head.components(true).len();
@@ -329,42 +372,62 @@ fn listed(names: &[String]) -> String {
     }
 }
 
-/// What an expression may read.
-struct Scope<'a> {
-    components: &'a [String],
-    names: &'a Names,
-    /// The values of the columns; empty where an expression is of parameters alone.
-    inputs: &'a [Arg],
-    outputs: &'a [Arg],
-}
+/// What an expression may read: names, each with its values.
+#[derive(Default)]
+struct Scope(Vec<(String, Vec<Arg>)>);
 
-impl Scope<'_> {
-    /// Appends an expression to the draft, and returns its value.
-    fn value(&self, draft: &mut Draft, target: &str, text: &str) -> Result<Arg, CallError> {
-        let mut all: Vec<(String, Arg)> = Vec::new();
-        let components = (0..).map(Arg::Input);
-        let columns = self.names.outputs.iter().zip(self.outputs.iter().copied());
-        let known = columns
-            .chain(self.components.iter().zip(components))
-            .chain(self.names.inputs.iter().zip(self.inputs.iter().copied()));
-        for (name, value) in known {
-            if !all.iter().any(|(known, _)| known == name) {
-                all.push((name.clone(), value));
-            }
-        }
-        let names = Names {
-            inputs: all.iter().map(|(name, _)| plain(name)).collect(),
-            outputs: vec!["result_of_let".to_owned()],
-        };
+impl Scope {
+    /// The parameters: values and vectors.
+    fn of_components(components: &[String]) -> Scope {
+        let mut next = 0;
+        let vectors = vectors(components).into_iter().map(|(name, size)| {
+            let values = (next..next + size).map(|i| Arg::Input(i as u16)).collect();
+            next += size;
+            (name, values)
+        });
+        Scope(vectors.collect())
+    }
+
+    /// Adds the names of another scope that are not known yet.
+    fn or(mut self, other: Scope) -> Scope {
+        let new = |(name, _): &(String, Vec<Arg>)| self.0.iter().all(|(known, _)| known != name);
+        let new: Vec<_> = other.0.into_iter().filter(new).collect();
+        self.0.extend(new);
+        self
+    }
+
+    /// Adds names that are not known yet.
+    fn and(self, names: &[String], values: &[Arg]) -> Scope {
+        let named = names.iter().zip(values);
+        self.or(Scope(named.map(|(name, value)| (name.clone(), vec![*value])).collect()))
+    }
+
+    /// Appends an expression to the draft, and returns its components.
+    fn values(&self, draft: &mut Draft, target: &str, text: &str) -> Result<Vec<Arg>, CallError> {
+        let vectors: Vec<(String, usize)> =
+            self.0.iter().map(|(name, values)| (name.clone(), values.len())).collect();
         let failed = |error| CallError::Expression {
             target: target.to_owned(),
             text: text.to_owned(),
             error: Box::new(error),
         };
-        let text = with_components(text, self.components);
-        let program = parse(&format!("result_of_let = {text}"), &names).map_err(failed)?;
-        let values: Vec<Arg> = all.iter().map(|(_, value)| *value).collect();
-        Ok(draft.append(&program, &values)[0])
+        let program = parse_expression(text, &vectors).map_err(failed)?;
+        let values: Vec<Arg> = self.0.iter().flat_map(|(_, values)| values).copied().collect();
+        Ok(draft.append(&program, &values))
+    }
+
+    /// Appends an expression of one value.
+    fn value(&self, draft: &mut Draft, target: &str, text: &str) -> Result<Arg, CallError> {
+        component(target, &self.values(draft, target, text)?, 0, 1)
+    }
+}
+
+/// Returns the component of a value for a target of so many; a single value is each component.
+fn component(target: &str, values: &[Arg], place: usize, size: usize) -> Result<Arg, CallError> {
+    match values {
+        [value] => Ok(*value),
+        values if values.len() == size => Ok(values[place]),
+        values => Err(CallError::Width { target: target.to_owned(), size, found: values.len() }),
     }
 }
 
@@ -374,46 +437,8 @@ pub(super) fn value_over(
     text: &str,
     components: &[String],
 ) -> Result<Program, CallError> {
-    let names = Names { inputs: components.to_vec(), outputs: Vec::new() };
-    let scope = Scope { components, names: &names, inputs: &[], outputs: &[] };
     let mut draft = Draft { inputs: components.len(), ..Draft::default() };
-    let value = scope.value(&mut draft, target, text)?;
+    let value = Scope::of_components(components).value(&mut draft, target, text)?;
     draft.outputs.push(value);
     Ok(Program::verify(draft).expect("an expression makes a program"))
-}
-
-/// Returns a component's name without a dot, as formula text has none.
-fn plain(component: &str) -> String {
-    component.replace('.', "__")
-}
-
-/// Writes components without dots, and `dot(a, b)` as the sum that it is.
-fn with_components(text: &str, components: &[String]) -> String {
-    let mut text = text.to_owned();
-    while let Some((start, end, sum)) = dot_product(&text, components) {
-        text.replace_range(start..end, &sum);
-    }
-    let mut longest: Vec<&String> = components.iter().filter(|name| name.contains('.')).collect();
-    longest.sort_by_key(|name| std::cmp::Reverse(name.len()));
-    for name in longest {
-        text = text.replace(name.as_str(), &plain(name));
-    }
-    text
-}
-
-/// Finds `dot(a, b)` of two vectors among the parameters.
-fn dot_product(text: &str, components: &[String]) -> Option<(usize, usize, String)> {
-    let start = text.find("dot(")?;
-    let end = start + text[start..].find(')')?;
-    let (a, b) = text[start + 4..end].split_once(',')?;
-    let of = |vector: &str| -> Vec<&String> {
-        let prefix = format!("{}.", vector.trim());
-        components.iter().filter(|name| name.starts_with(&prefix)).collect()
-    };
-    let (a, b) = (of(a), of(b));
-    if a.is_empty() || a.len() != b.len() {
-        return None;
-    }
-    let products: Vec<String> = a.iter().zip(&b).map(|(a, b)| format!("{a}*{b}")).collect();
-    Some((start, end + 1, format!("({})", products.join(" + "))))
 }

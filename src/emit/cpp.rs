@@ -17,6 +17,7 @@ pub(super) const SYNTAX: Syntax = Syntax {
     spelling,
     reserved: |name| (c::SYNTAX.reserved)(name) || is_word("std", name),
     out_parameter: Some(|of, name| format!("{of} &{name}")),
+    out_by_pointer: false,
     open,
     readable: Readable {
         lines: &["#include <algorithm>", "#include <cmath>"],
@@ -64,6 +65,7 @@ fn open(syntax: &Syntax, head: &WrittenHead, lines: &mut Vec<String>) {
     let from = lines.len();
     c_family::open(syntax, head, lines);
     let first = lines[from..].iter().position(|line| line.ends_with(") {")).expect("a first line");
-    let kind = if head.arithmetic { "constexpr" } else { "inline" };
-    lines[from + first].insert_str(0, &format!("{kind} "));
+    let kind = if head.arithmetic { "constexpr " } else { "inline " };
+    let kind = if head.qualifiers.is_some() { "" } else { kind };
+    lines[from + first].insert_str(0, kind);
 }

@@ -20,6 +20,7 @@ pub(super) const SYNTAX: Syntax = Syntax {
     spelling,
     reserved,
     out_parameter: Some(|of, name| format!("{of} &{name}")),
+    out_by_pointer: false,
     open: |syntax, head, lines| {
         open(syntax, head, "__host__ __device__ inline", lines);
     },

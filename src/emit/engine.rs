@@ -286,7 +286,8 @@ impl Engine {
         let inputs = names.inputs.iter().zip(&parameters);
         let columns = inputs.map(|(column, parameter)| (column.clone(), parameter.name.clone()));
         let columns = columns.collect();
-        Head { function: joined(function, functions), parameters, returned, columns }
+        let function = joined(function, functions);
+        Head { function, qualifiers: None, parameters, returned, columns }
     }
 
     fn parameter_name(self, column: &str) -> String {

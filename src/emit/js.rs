@@ -69,7 +69,8 @@ fn spelling(op: Op) -> Spelling {
 }
 
 fn open(_: &Syntax, head: &WrittenHead, lines: &mut Vec<String>) {
-    lines.push(format!("export function {}({}) {{", head.function, head.inputs.join(", ")));
+    let (qualifiers, inputs) = (head.qualified("export"), head.inputs.join(", "));
+    lines.push(format!("{qualifiers}function {}({inputs}) {{", head.function));
 }
 
 fn close(_: &Syntax, head: &WrittenHead, lines: &mut Vec<String>) {

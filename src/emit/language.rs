@@ -174,9 +174,9 @@ impl Language {
     /// Returns the head that a function over these columns usually has.
     pub fn head(self, function: &str, names: &Names) -> Head {
         let by_parameters = self.syntax().is_some_and(|syntax| syntax.outputs_by_parameters);
-        let Signature { function, parameters, returned } =
+        let Signature { function, qualifiers, parameters, returned } =
             Signature::of(function, names, by_parameters);
-        Head { function, parameters, returned: Some(returned), columns: Vec::new() }
+        Head { function, qualifiers, parameters, returned: Some(returned), columns: Vec::new() }
     }
 
     /// Returns true if the language has numbers of half precision.

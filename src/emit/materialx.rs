@@ -261,7 +261,25 @@ fn reserved(name: &str) -> bool {
     [glsl::SYNTAX, hlsl::SYNTAX, msl::SYNTAX, osl::SYNTAX, wgsl::SYNTAX]
         .iter()
         .any(|syntax| (syntax.reserved)(name))
+        || is_word(NODES, name)
         || is_word("in in1 in2 low high value1 value2 iny inx bg fg mix value", name)
         || name.starts_with('_')
         || name.ends_with('_')
 }
+
+/// Nodes of the standard library (1.39.5, `stdlib_defs.mtlx`).
+const NODES: &str = "absval acos add and asin atan2 bitangent blur bump burn ceil cellnoise2d cellnoise3d \
+    checkerboard circle clamp cloverleaf colorcorrect combine2 combine3 combine4 constant \
+    contrast convert cos creatematrix crosshatch crossproduct determinant difference \
+    disjointover distance divide dodge dot dotproduct exp extract flake2d flake3d floor fract \
+    fractal2d fractal3d frame geomcolor geompropvalue geompropvalueuniform grid heighttonormal \
+    hexagon hextiledimage hextilednormalmap hsvadjust hsvtorgb ifequal ifgreater ifgreatereq \
+    image in inside invert invertmatrix latlongimage line ln luminance magnitude mask matte max \
+    min minus mix modulo multiply noise2d noise3d normal normalize normalmap not or out outside \
+    over overlay place2d plus position power premult ramp ramp4 ramp_gradient ramplr ramptb \
+    randomcolor randomfloat range reflect refract remap rgbtohsv rotate2d rotate3d round \
+    safepower saturate screen separate2 separate3 separate4 sign sin smoothstep splitlr splittb \
+    sqrt subtract surface_unlit surfacematerial switch tan tangent texcoord tiledcircles \
+    tiledcloverleafs tiledhexagons tiledimage time transformmatrix transformnormal \
+    transformpoint transformvector transpose trianglewave triplanarprojection unifiednoise2d \
+    unifiednoise3d unpremult volumematerial worleynoise2d worleynoise3d xor";

@@ -66,8 +66,8 @@ pub use engine::{Engine, UnknownEngine, emit_for};
 pub use header::header_lines;
 pub use language::{Language, UnknownLanguage};
 pub use read::{
-    MAX_SNIPPET, Over, Precision, ReadBack, ReadError, Stated, StatedError, formula_line,
-    language_of, read_back, read_file, read_head,
+    MAX_SNIPPET, Over, Precision, ReadBack, ReadError, Stated, StatedError, derived_line,
+    formula_line, language_of, read_back, read_file, read_head,
 };
 pub use signature::{Head, Parameter, Signature};
 
@@ -215,18 +215,20 @@ fn is_arithmetic(program: &Program) -> bool {
 }
 
 impl Snippet<'_> {
-    /// Returns `dfg_bias` for the single output `bias` of `dfg`, unless the name says it already,
-    /// or a signature another.
+    /// Returns the function's name: that of a signature, or else of its single output, too.
     fn function_name(&self) -> String {
-        let function = self.function;
         match (self.signature, self.names.outputs.as_slice()) {
             (Some(signature), _) => signature.function.clone(),
-            (None, [output])
-                if function != output && !function.ends_with(&format!("_{output}")) =>
-            {
-                format!("{function}_{output}")
-            }
-            _ => function.to_owned(),
+            (None, [output]) => of_output(self.function, output),
+            (None, _) => self.function.to_owned(),
         }
+    }
+}
+
+/// Returns `dfg_bias` for the output `bias` of `dfg`, unless the name says it already.
+pub fn of_output(function: &str, output: &str) -> String {
+    match function == output || function.ends_with(&format!("_{output}")) {
+        true => function.to_owned(),
+        false => format!("{function}_{output}"),
     }
 }

@@ -52,7 +52,7 @@ impl<'a> Naming<'a> {
     }
 
     pub fn head(&mut self, arithmetic: bool) -> WrittenHead {
-        let Signature { parameters, returned, .. } = self.signature;
+        let Signature { qualifiers, parameters, returned, .. } = self.signature;
         let mut names = self.written.iter().cloned();
         let function = names.next().expect("a function has a name");
         let parameters: Vec<Parameter> = (parameters.iter().zip(names.by_ref()))
@@ -76,6 +76,7 @@ impl<'a> Naming<'a> {
         let returned = *returned;
         WrittenHead {
             function,
+            qualifiers: qualifiers.clone(),
             parameters,
             inputs,
             outputs,

@@ -18,6 +18,8 @@ pub(super) const LANGUAGE: Entry = Entry {
 pub(super) const SYNTAX: Syntax = Syntax {
     types: &["f32"],
     parameter: |of, name| format!("{name}: {of}"),
+    out_parameter: Some(|of, name| format!("{name}: &mut {of}")),
+    out_by_pointer: true,
     spelling,
     reserved,
     local: |_, name, value| format!("let {name} = {value};"),
@@ -78,22 +80,23 @@ fn non_finite(bits: u32) -> &'static str {
 }
 
 fn open(syntax: &Syntax, head: &WrittenHead, lines: &mut Vec<String>) {
-    let WrittenHead { function, inputs, outputs, .. } = head;
-    let inputs: Vec<String> = inputs.iter().map(|name| (syntax.parameter)("f32", name)).collect();
-    let returned = match outputs.len() {
-        1 => "f32".to_owned(),
-        n => format!("({})", vec!["f32"; n].join(", ")),
+    let returned = match head.returned {
+        0 => String::new(),
+        1 => "-> f32 ".to_owned(),
+        n => format!("-> ({}) ", vec!["f32"; n].join(", ")),
     };
-    lines.push(format!("pub fn {function}({}) -> {returned} {{", inputs.join(", ")));
+    let (qualifiers, function) = (head.qualified("pub"), &head.function);
+    let parameters = c_family::parameters(syntax, head);
+    lines.push(format!("{qualifiers}fn {function}({parameters}) {returned}{{"));
 }
 
 fn close(_: &Syntax, head: &WrittenHead, lines: &mut Vec<String>) {
-    let values = head.outputs.join(", ");
-    lines.push(if head.outputs.len() == 1 {
-        format!("    {values}")
-    } else {
-        format!("    ({values})")
-    });
+    let values = head.outputs[..head.returned].join(", ");
+    match head.returned {
+        0 => {}
+        1 => lines.push(format!("    {values}")),
+        _ => lines.push(format!("    ({values})")),
+    }
     lines.push("}".to_owned());
 }
 

@@ -34,6 +34,28 @@ pub(super) fn returned_names(count: usize) -> Vec<String> {
     }
 }
 
+/// Splits the name of a vector's component into the vector's and the component's place.
+pub(super) fn vector_of(component: &str) -> Option<(&str, usize)> {
+    let (vector, of) = component.rsplit_once('.')?;
+    let place = COMPONENTS.iter().position(|letter| *letter == of);
+    Some((vector, place.or_else(|| of.parse().ok())?))
+}
+
+/// Returns the vectors and values that components are of, each with its number of components.
+pub(super) fn vectors(components: &[String]) -> Vec<(String, usize)> {
+    let mut vectors: Vec<(String, usize)> = Vec::new();
+    for component in components {
+        match (vector_of(component), vectors.last_mut()) {
+            (Some((vector, place)), Some((last, size))) if last == vector && *size == place => {
+                *size += 1;
+            }
+            (Some((vector, 0)), _) => vectors.push((vector.to_owned(), 1)),
+            _ => vectors.push((component.clone(), 1)),
+        }
+    }
+    vectors
+}
+
 /// The components of a vector.
 pub(super) const COMPONENTS: [&str; 4] = ["x", "y", "z", "w"];
 
@@ -42,6 +64,8 @@ pub(super) const COMPONENTS: [&str; 4] = ["x", "y", "z", "w"];
 pub struct Head {
     /// The function's name.
     pub function: String,
+    /// The words before it, if they are others than usual: `static inline`.
+    pub qualifiers: Option<String>,
     /// Its parameters.
     pub parameters: Vec<Parameter>,
     /// The number of values that it returns; none if it returns what nothing else takes.
@@ -73,6 +97,8 @@ impl Head {
 pub struct Signature {
     /// The function's name.
     pub function: String,
+    /// The words before it, if they are others than usual.
+    pub qualifiers: Option<String>,
     /// The parameters.
     pub parameters: Vec<Parameter>,
     /// The number of outputs that are returned.
@@ -90,7 +116,7 @@ impl Signature {
             parameters.extend(names.outputs.iter().map(parameter(true)));
         }
         let returned = if by_parameters { 0 } else { names.outputs.len() };
-        Signature { function: function.to_owned(), parameters, returned }
+        Signature { function: function.to_owned(), qualifiers: None, parameters, returned }
     }
 
     /// Returns the names of the components that values come by.

@@ -23,6 +23,8 @@ pub(super) struct Syntax {
     pub parameter: fn(of: &str, name: &str) -> String,
     /// Writes a parameter that a result leaves by, if there are any.
     pub out_parameter: Option<fn(of: &str, name: &str) -> String>,
+    /// True if these are pointers: `*name = x;`.
+    pub out_by_pointer: bool,
     /// True if several outputs leave by parameters unless asked otherwise.
     pub outputs_by_parameters: bool,
     pub spelling: fn(Op) -> Spelling,
@@ -116,6 +118,8 @@ pub(super) struct Readable {
 /// A function's head, and the names in its body, as the language allows them.
 pub(super) struct WrittenHead {
     pub function: String,
+    /// The words before it, if they are others than usual.
+    pub qualifiers: Option<String>,
     pub parameters: Vec<Parameter>,
     /// What the body writes for each input.
     pub inputs: Vec<String>,
@@ -131,6 +135,15 @@ pub(super) struct WrittenHead {
 }
 
 impl WrittenHead {
+    /// Returns the words before the function, and a space after them; `usual` ones unless the head
+    /// says others.
+    pub fn qualified(&self, usual: &str) -> String {
+        match self.qualifiers.as_deref().unwrap_or(usual) {
+            "" => String::new(),
+            words => format!("{words} "),
+        }
+    }
+
     /// Returns true if the output is a parameter by itself, which its value is assigned to.
     pub fn is_parameter(&self, output: usize) -> bool {
         self.out_places()

@@ -52,8 +52,9 @@ fn spelling(op: Op) -> Spelling {
     }
 }
 
+/// As in WGSL, what a variable holds is no constant expression, which would have to be finite.
 fn non_finite(bits: u32) -> String {
-    format!("uintBitsToFloat(uint({bits:#010x}))")
+    format!("uintBitsToFloat(uint({bits:#010x}).toVar())")
 }
 
 /// The line of imports is written last, when it is known what is used.
@@ -61,9 +62,10 @@ fn open(_: &Syntax, head: &WrittenHead, lines: &mut Vec<String>) {
     lines.extend([String::new(), String::new()]);
     let parameters: Vec<&str> = head.parameters.iter().map(|p| p.name.as_str()).collect();
     let (function, parameters) = (&head.function, parameters.join(", "));
+    let qualifiers = head.qualified("export");
     lines.push(match returns_a_node(head) {
-        true => format!("export const {function} = Fn(([{parameters}]) => {{"),
-        false => format!("export const {function} = ({parameters}) => {{"),
+        true => format!("{qualifiers}const {function} = Fn(([{parameters}]) => {{"),
+        false => format!("{qualifiers}const {function} = ({parameters}) => {{"),
     });
 }
 
@@ -80,7 +82,7 @@ fn close(_: &Syntax, head: &WrittenHead, lines: &mut Vec<String>) {
         _ => format!("    return [{values}];"),
     });
     lines.push(if returns_a_node(head) { "});" } else { "};" }.to_owned());
-    let at = lines.iter().position(|line| line.starts_with("export")).expect("a first line");
+    let at = lines.iter().position(|line| line.contains("=> {")).expect("a first line");
     let code = lines[at..].join("\n");
     let called = |name: &&str| {
         code.match_indices(*name).any(|(i, _)| {

@@ -18,6 +18,8 @@ pub(super) const LANGUAGE: Entry = Entry {
 pub(super) const SYNTAX: Syntax = Syntax {
     types: &["f32", "vec2<f32>", "vec3<f32>", "vec4<f32>"],
     parameter: |of, name| format!("{name}: {of}"),
+    out_parameter: Some(|of, name| format!("{name}: ptr<function, {of}>")),
+    out_by_pointer: true,
     spelling,
     reserved,
     local: |_, name, value| format!("let {name} = {value};"),
@@ -72,18 +74,21 @@ fn open(syntax: &Syntax, head: &WrittenHead, lines: &mut Vec<String>) {
     if returned == head.structure {
         lines.push(format!("struct {returned} {{"));
         let member = |name| format!("    {name}: {},", syntax.types[0]);
-        lines.extend(head.outputs.iter().map(member));
+        lines.extend(head.outputs[..head.returned].iter().map(member));
         lines.push("}".to_owned());
     }
-    let parameters = head.parameters.iter();
-    let parameters = parameters.map(|p| (syntax.parameter)(syntax.types[p.size - 1], &p.name));
-    let parameters = parameters.collect::<Vec<_>>().join(", ");
-    lines.push(format!("fn {}({parameters}) -> {returned} {{", head.function));
+    let returned = if head.returned == 0 { String::new() } else { format!("-> {returned} ") };
+    let (function, parameters) = (&head.function, c_family::parameters(syntax, head));
+    lines.push(format!("fn {function}({parameters}) {returned}{{"));
 }
 
 fn close(syntax: &Syntax, head: &WrittenHead, lines: &mut Vec<String>) {
-    let of_structure = || format!("    return {}({});", head.structure, head.outputs.join(", "));
-    lines.push(c_family::returned_value(syntax, head).unwrap_or_else(of_structure));
+    lines.extend(c_family::assigned_vectors(syntax, head));
+    let of_structure = || {
+        let values = head.outputs[..head.returned].join(", ");
+        (head.returned > 0).then(|| format!("    return {}({values});", head.structure))
+    };
+    lines.extend(c_family::returned_value(syntax, head).or_else(of_structure));
     lines.push("}".to_owned());
 }
 

@@ -35,7 +35,7 @@ pub use text::{
     ALWAYS_ASKED, Claim, FreeConstant, MAX_FORMULA, Names, ParseError, Parsed, Scope,
     format_constant, parse, parse_open, parse_template, print, print_expression, shortest,
 };
-pub(crate) use text::{place, plain, pointed};
+pub(crate) use text::{parse_expression, place, plain, pointed};
 
 use crate::op::{MAX_ARITY, Op};
 use serde::{Deserialize, Serialize};

@@ -81,46 +81,29 @@ impl Form {
     /// [`CallError`] if a head does not fit.
     pub fn called(&self, run: &Run, member: &FrontMember) -> Result<Called, CallError> {
         let (names, program) = (run.names(), &member.program);
-        let mut lets = self.lets.clone();
-        let mut function = self.function.clone().unwrap_or_else(|| run.name.clone());
-        let head = match (&self.head, self.target) {
-            (Some(head), _) => Some(head.clone()),
-            (None, Target::Engine(engine)) => {
-                let [output] = names.outputs.as_slice() else {
-                    return self.with(run, engine.head(&function, &names), program, lets);
-                };
-                if self.function.is_none() && !function.ends_with(&format!("_{output}")) {
-                    function = format!("{function}_{output}");
-                }
-                Some(engine.head(&function, &names))
-            }
-            (None, Target::Language(language)) => {
-                let usual = self.function.is_none() && !self.clamp_inputs && self.lets.is_empty();
-                (!usual).then(|| language.head(&function, &names))
-            }
+        let plain = self.function.is_none() && !self.clamp_inputs && self.lets.is_empty();
+        let function = || match (&self.function, names.outputs.as_slice()) {
+            (Some(function), _) => function.clone(),
+            (None, [output]) => emit::of_output(&run.name, output),
+            (None, _) => run.name.clone(),
         };
-        match head {
-            Some(head) => self.with(run, head, program, std::mem::take(&mut lets)),
-            None => {
+        let head = match (&self.head, self.target) {
+            (Some(head), _) => Head {
+                function: self.function.clone().unwrap_or_else(|| head.function.clone()),
+                ..head.clone()
+            },
+            (None, Target::Engine(engine)) => engine.head(&function(), &names),
+            (None, Target::Language(_)) if plain => {
                 let domain = run.questions().domain;
-                Ok(Called { program: program.clone(), names, domain, call: None })
+                return Ok(Called { program: program.clone(), names, domain, call: None });
             }
-        }
+            (None, Target::Language(language)) => language.head(&function(), &names),
+        };
+        self.under(head, run, program)
     }
 
-    fn with(
-        &self,
-        run: &Run,
-        mut head: Head,
-        program: &Program,
-        mut lets: Lets,
-    ) -> Result<Called, CallError> {
-        let names = run.names();
-        if let Some(function) = &self.function
-            && self.head.is_some()
-        {
-            head.function.clone_from(function);
-        }
+    fn under(&self, head: Head, run: &Run, program: &Program) -> Result<Called, CallError> {
+        let (names, mut lets) = (run.names(), self.lets.clone());
         if self.clamp_inputs {
             for column in &run.inputs {
                 let value = match lets.of(&column.name) {
@@ -135,6 +118,7 @@ impl Form {
         let call = emit::call(program, &names, &head, &lets)?;
         let arguments = Arguments::of(&call.names.inputs, &names.inputs, &head.columns, &lets)?;
         let domains: Vec<[f64; 2]> = run.inputs.iter().map(|column| column.domain).collect();
+        arguments.reach(&names.inputs, &lets, &domains)?;
         let domain = arguments.domain(&domains);
         let domain =
             domain.iter().map(|[low, high]| Interval::new(*low as f32, *high as f32)).collect();
@@ -245,6 +229,8 @@ pub fn header(run: &Run, member: &FrontMember) -> Vec<String> {
     if let Some(scene) = &run.scene {
         header.insert(2, format!("scene: {}: {}", scene.name, scene.summary()));
     }
+    let derived = run.derived.iter().map(|derived| emit::derived_line(&one_line(derived)));
+    header.splice(2..2, derived);
     if names.outputs.len() > 1 {
         for (output, error) in names.outputs.iter().zip(&member.errors()) {
             header.push(format!("       {output}: {}", described(*error, run.goal.measure)));

@@ -60,7 +60,7 @@ fn choices() -> impl Strategy<Value = Choices> {
 }
 
 /// A head, and what says which component each column is, and which output each result.
-fn head(choices: &Choices, columns: &Names, out_parameters: bool) -> (Head, Lets) {
+fn head(choices: &Choices, columns: &Names) -> (Head, Lets) {
     let parameter = |(name, size): (&&str, &usize)| Parameter {
         name: (*name).to_owned(),
         size: *size,
@@ -77,7 +77,7 @@ fn head(choices: &Choices, columns: &Names, out_parameters: bool) -> (Head, Lets
         lets.add(column, expression).unwrap();
     }
     let count = choices.results.len();
-    let by_parameters = choices.by_parameters && out_parameters;
+    let by_parameters = choices.by_parameters;
     let out = Parameter { name: "found".to_owned(), size: count, out: true };
     let returned = if by_parameters { 0 } else { count };
     let targets = match (by_parameters, count) {
@@ -92,8 +92,8 @@ fn head(choices: &Choices, columns: &Names, out_parameters: bool) -> (Head, Lets
         let output = &columns.outputs[output.index(columns.outputs.len())];
         lets.add(target, output.clone()).unwrap();
     }
-    let (function, columns) = ("adapted".to_owned(), Vec::new());
-    (Head { function, parameters, returned: Some(returned), columns }, lets)
+    let (function, qualifiers, columns) = ("adapted".to_owned(), None, Vec::new());
+    (Head { function, qualifiers, parameters, returned: Some(returned), columns }, lets)
 }
 
 /// The head as the language writes it, by way of a function under it.
@@ -120,7 +120,7 @@ proptest! {
             outputs: names(&program).outputs,
         };
         for language in WITH_VECTORS {
-            let (head, lets) = head(&choices, &columns, language != Language::Wgsl);
+            let (head, lets) = head(&choices, &columns);
             let called = call(&program, &columns, &head, &lets).unwrap();
             let snippet = Snippet::new(&called.program, &called.names, "unused");
             let snippet = snippet.signature(&called.signature).header(&called.comments);
@@ -156,7 +156,7 @@ proptest! {
         for language in WITH_VECTORS {
             // A vector of halves has two components there.
             let sizes = |head: &Head| head.parameters.iter().all(|parameter| parameter.size <= 2);
-            let (head, lets) = head(&choices, &columns, language != Language::Wgsl);
+            let (head, lets) = head(&choices, &columns);
             if language == Language::Cuda && (!sizes(&head) || head.returned > Some(2)) {
                 continue;
             }

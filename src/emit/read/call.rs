@@ -53,7 +53,15 @@ impl Reader<'_> {
         self.expect(')', "after what is converted")?;
         match value {
             // `uint(0x7f800000)`
-            Value::Bits(_) if self.syntax.readable.style == Style::Nodes => Ok(value),
+            Value::Bits(_) if self.syntax.readable.style == Style::Nodes => {
+                if self.take_symbol('.') && !self.take_word("toVar") {
+                    return self.error(self.offset(), "expected `toVar()`");
+                }
+                if self.take_symbol('(') {
+                    self.expect(')', "after `toVar(`")?;
+                }
+                Ok(value)
+            }
             // In GLSL ES a constructor keeps the precision.
             _ if self.language == Language::GlslEs => Ok(Value::Float(self.as_float(value, at)?)),
             _ => {

@@ -36,6 +36,14 @@ pub(in crate::emit) fn let_line(target: &str, expression: &str) -> String {
     format!("{LET} {target} = {expression}")
 }
 
+/// The mark of a line that says how an output is computed of the data's columns.
+const DERIVED: &str = "derived:";
+
+/// Returns the header line that says so: `total = scale + bias`.
+pub fn derived_line(derived: &str) -> String {
+    format!("{DERIVED} {derived}")
+}
+
 /// A formula in a comment.
 #[derive(Clone, Debug)]
 pub struct Stated {
@@ -74,6 +82,8 @@ pub(super) struct Contract {
     columns: HashMap<String, String>,
     /// The statements about columns and results.
     lets: Vec<String>,
+    /// How outputs are computed of the data's columns.
+    derived: Vec<String>,
     /// The outputs in order, of the line that says what is computed of what.
     outputs: Vec<String>,
 }
@@ -96,6 +106,8 @@ impl Contract {
             .or_else(|| text.split_once(" is the column "));
         if let Some(statement) = text.strip_prefix(LET) {
             self.lets.push(statement.trim().to_owned());
+        } else if let Some(derived) = text.strip_prefix(DERIVED) {
+            self.derived.push(derived.trim().to_owned());
         } else if let Some(formula) = text.strip_prefix(FORMULA) {
             self.formulas.push((line, formula.trim().to_owned()));
         } else if let Some((written, column)) = renamed {
@@ -111,6 +123,14 @@ impl Contract {
 
     pub fn outputs(&self) -> &[String] {
         &self.outputs
+    }
+
+    pub fn add_lets(&mut self, lets: &[String]) {
+        self.lets.extend_from_slice(lets);
+    }
+
+    pub fn derived(&self) -> &[String] {
+        &self.derived
     }
 
     pub fn lets(&self) -> &[String] {

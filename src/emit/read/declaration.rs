@@ -34,8 +34,10 @@ impl Reader<'_> {
         match style {
             Style::C => drop(self.c_signature()?),
             Style::Wgsl | Style::Rust => drop(self.fn_signature()?),
+            Style::Nodes if self.is_word_ahead("const") => drop(self.nodes_signature()?),
             Style::Script | Style::Nodes | Style::Python => {
-                self.qualifiers(&["export", "const", "function", "def"]);
+                self.of_function = self.qualifiers(&["export"]);
+                self.qualifiers(&["function", "def"]);
                 self.function_name()?;
                 self.names_of_parameters(')')?;
             }
@@ -166,19 +168,23 @@ impl Reader<'_> {
     }
 
     fn fn_signature(&mut self) -> Read<Vec<String>> {
-        self.qualifiers(self.syntax.readable.of_functions);
+        self.of_function = self.qualifiers(self.syntax.readable.of_functions);
         if !self.take_word("fn") {
             return self.error(self.offset(), "expected a function, `fn f(x: f32) -> f32`");
         }
         self.function_name()?;
         let inputs = self.parameters()?;
-        self.expect('-', "and `>`, before the type that the function returns")?;
-        self.expect('>', "before the type that the function returns")?;
-        match self.language == Language::Rust && self.take_symbol('(') {
-            true => self.tuple_type()?,
-            false => self.returned_type()?,
+        if self.outs.is_empty() || self.is_symbol(0, '-') {
+            self.expect('-', "and `>`, before the type that the function returns")?;
+            self.expect('>', "before the type that the function returns")?;
+            match self.language == Language::Rust && self.take_symbol('(') {
+                true => self.tuple_type()?,
+                false => self.returned_type()?,
+            }
+        } else {
+            self.returned = Some(0);
         }
-        self.same_types()?;
+        self.of_outputs()?;
         Ok(inputs)
     }
 
@@ -208,7 +214,7 @@ impl Reader<'_> {
     }
 
     fn c_signature(&mut self) -> Read<Vec<String>> {
-        self.qualifiers(self.syntax.readable.of_functions);
+        self.of_function = self.qualifiers(self.syntax.readable.of_functions);
         if self.peek().is_none() {
             return self.error(self.offset(), "expected a function");
         }
@@ -221,16 +227,21 @@ impl Reader<'_> {
         self.function_name()?;
         let inputs = self.parameters()?;
         self.semantic()?;
+        self.of_outputs()?;
+        Ok(inputs)
+    }
+
+    /// Takes the outputs' type from the parameters that they leave by, if none is returned.
+    fn of_outputs(&mut self) -> Read<()> {
         if let (Some(0), Some(first)) = (self.returned, self.outs.first()) {
             self.of = first.of;
         }
-        self.same_types()?;
-        Ok(inputs)
+        self.same_types()
     }
 
     /// Reads `export function f(x) {` or `def f(x):`.
     fn word_head(&mut self, word: &str) -> Read<Vec<String>> {
-        self.qualifiers(self.syntax.readable.of_functions);
+        self.of_function = self.qualifiers(self.syntax.readable.of_functions);
         if !self.take_word(word) {
             return self.error(self.offset(), format!("expected a function, `{word} f(x)`"));
         }
@@ -243,9 +254,24 @@ impl Reader<'_> {
         Ok(inputs)
     }
 
-    /// Reads `export const f = Fn(([x]) => {`, or `export const f = (x) => {`.
+    /// Returns true for the word, or for it after `export`.
+    fn is_word_ahead(&self, word: &str) -> bool {
+        let name = |ahead: usize| match self.tokens.get(self.next + ahead) {
+            Some((_, Token::Name(name))) => Some(name.as_str()),
+            _ => None,
+        };
+        name(0) == Some(word) || name(0) == Some("export") && name(1) == Some(word)
+    }
+
     fn nodes_head(&mut self) -> Read<Vec<String>> {
-        self.qualifiers(self.syntax.readable.of_functions);
+        let inputs = self.nodes_signature()?;
+        self.expect('{', "and the body of the function")?;
+        Ok(inputs)
+    }
+
+    /// Reads `export const f = Fn(([x]) =>`, or `export const f = (x) =>`.
+    fn nodes_signature(&mut self) -> Read<Vec<String>> {
+        self.of_function = self.qualifiers(self.syntax.readable.of_functions);
         let at = self.offset();
         let name = if self.take_word("const") { self.take_name() } else { None };
         let Some(name) = name else {
@@ -270,7 +296,6 @@ impl Reader<'_> {
         };
         self.expect('=', "and `>`, before the body of the function")?;
         self.expect('>', "before the body of the function")?;
-        self.expect('{', "and the body of the function")?;
         Ok(inputs)
     }
 
@@ -428,6 +453,28 @@ impl Reader<'_> {
         found
     }
 
+    /// Reads a type, or one that results leave by: `ptr<function, f32>`, `&mut f32`.
+    fn type_or_reference(&mut self) -> Read<(String, bool)> {
+        if self.language == Language::Rust && self.take_symbol('&') {
+            if !self.take_word("mut") {
+                return self.error(self.offset(), "expected `mut`: results leave by `&mut f32`");
+            }
+            return Ok((self.type_name()?, true));
+        }
+        let is_pointer = self.language == Language::Wgsl && self.is_symbol(1, '<');
+        if !is_pointer || !self.take_word("ptr") {
+            return Ok((self.type_name()?, false));
+        }
+        self.expect('<', "after `ptr`")?;
+        if !self.take_word("function") {
+            return self.error(self.offset(), "expected `function`, as in `ptr<function, f32>`");
+        }
+        self.expect(',', "after `function`")?;
+        let written = self.type_name()?;
+        self.expect('>', "after the type that is pointed to")?;
+        Ok((written, true))
+    }
+
     /// Reads the name and the type of a float.
     fn typed_name(&mut self, what: &str) -> Read<(String, Type)> {
         let at = self.offset();
@@ -444,14 +491,16 @@ impl Reader<'_> {
         if matches!(self.syntax.readable.style, Style::Wgsl | Style::Rust) {
             let Some(name) = self.take_name() else { return expected(self) };
             self.expect(':', &format!("and the type of {what}"))?;
-            return Ok((name, self.type_name()?, false));
+            let (written, reference) = self.type_or_reference()?;
+            return Ok((name, written, reference));
         }
         if !matches!(self.peek(), Some(Token::Name(_))) {
             return expected(self);
         }
         let written = self.type_name()?;
-        let references = self.syntax.out_parameter.is_some_and(|out| out("T", "n").contains('&'));
-        let reference = references && self.take_symbol('&');
+        let out_parameter = self.syntax.out_parameter.map(|out| out("T", "n")).unwrap_or_default();
+        let sign = ['&', '*'].into_iter().find(|&sign| out_parameter.contains(sign));
+        let reference = sign.is_some_and(|sign| self.take_symbol(sign));
         let Some(name) = self.take_name() else { return expected(self) };
         Ok((name, written, reference))
     }

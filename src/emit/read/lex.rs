@@ -297,9 +297,8 @@ fn number(language: Language, readable: &Readable, text: &str) -> Result<Token, 
     let (digits, kind) = without_suffix(readable, text);
     let kind = match (kind, digits.bytes().all(|b| b.is_ascii_digit())) {
         (NumberKind::Plain, _) if readable.plain == Plain::Double => {
-            return Err(format!(
-                "`{text}` is no float; write `{digits}f`, or `{digits}.0f` if it is whole"
-            ));
+            let point = if digits.contains(['.', 'e', 'E']) { "" } else { ".0" };
+            return Err(format!("`{text}` is no float; write `{digits}{point}f`"));
         }
         (NumberKind::Plain, true) if readable.plain == Plain::Number => NumberKind::Plain,
         (NumberKind::Plain, true) => NumberKind::Integer,

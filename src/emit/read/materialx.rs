@@ -22,8 +22,8 @@ pub(super) fn read(text: &str) -> Read<ReadBack> {
         }
     })?;
     let root = document.root_element();
-    let failed =
-        |node: Node, message: String| Err(ReadError::at(text, node.range().start, message));
+    let failed = |node: Node, message: String| failed(text, node, message);
+    only_known(text, root)?;
     let elements = |name: &'static str| root.children().filter(move |node| node.has_tag_name(name));
     let graph = match elements("nodegraph").collect::<Vec<_>>().as_slice() {
         [graph] => *graph,
@@ -46,6 +46,11 @@ pub(super) fn read(text: &str) -> Read<ReadBack> {
         .filter(|node| node.has_tag_name("input"))
         .map(|n| name_of(&n))
         .collect();
+    let declared: Vec<String> = definition
+        .children()
+        .filter(|node| node.has_tag_name("output"))
+        .map(|n| name_of(&n))
+        .collect();
     let mut reader = Graph {
         text,
         nodes: graph
@@ -63,6 +68,13 @@ pub(super) fn read(text: &str) -> Read<ReadBack> {
         let value = reader.source(output)?;
         reader.draft.outputs.push(value);
         outputs.push(name_of(&output));
+    }
+    if outputs != declared {
+        let [outputs, declared] = [outputs, declared].map(|names| names.join(", "));
+        return failed(
+            graph,
+            format!("its outputs are {outputs}, those of its definition {declared}"),
+        );
     }
     let comments: Vec<Comment> = document
         .descendants()
@@ -94,6 +106,68 @@ pub(super) fn read(text: &str) -> Read<ReadBack> {
     })
 }
 
+fn failed<T>(text: &str, node: Node, message: String) -> Read<T> {
+    Err(ReadError::at(text, node.range().start, message))
+}
+
+/// What a document may contain: elements and their attributes; all others are refused, as they may
+/// mean something. Attributes that begin with `ui`, `doc` and places mean nothing for values.
+const KNOWN: [(&str, &[&str]); 5] = [
+    ("materialx", &["version"]),
+    ("nodedef", &["name", "node", "nodegroup"]),
+    ("nodegraph", &["name", "nodedef"]),
+    ("input", &["name", "type", "value", "nodename", "interfacename"]),
+    ("output", &["name", "type", "value", "nodename", "interfacename"]),
+];
+
+/// Refuses elements, attributes and double names that a document is not read with.
+fn only_known(text: &str, root: Node) -> Read<()> {
+    for node in root.descendants().filter(Node::is_element) {
+        let tag = node.tag_name().name();
+        let parent = node.parent_element().map_or("", |parent| parent.tag_name().name());
+        let is_node = parent == "nodegraph" && !["input", "output"].contains(&tag);
+        let known =
+            KNOWN.iter().find(|(known, _)| *known == tag).map(|(_, attributes)| *attributes);
+        let in_place = match parent {
+            "" => tag == "materialx",
+            "materialx" => ["nodedef", "nodegraph"].contains(&tag),
+            "nodedef" | "nodegraph" => true,
+            _ => tag == "input",
+        };
+        let attributes = if is_node { Some(&["name", "type"][..]) } else { known };
+        let Some(attributes) = attributes.filter(|_| in_place) else {
+            return failed(text, node, format!("`{tag}` is not read here"));
+        };
+        let means_nothing =
+            |name: &str| name.starts_with("ui") || ["doc", "xpos", "ypos"].contains(&name);
+        for attribute in node.attributes() {
+            let name = attribute.name();
+            if !attributes.contains(&name) && !means_nothing(name) {
+                return failed(text, node, format!("the attribute `{name}` is not read here"));
+            }
+        }
+        let bindings = ["value", "nodename", "interfacename"];
+        let bound = bindings.iter().filter(|name| node.attribute(**name).is_some()).count();
+        if bound > 1 {
+            return failed(
+                text,
+                node,
+                "more than one of value, nodename, interfacename".to_owned(),
+            );
+        }
+        let name = node.attribute("name");
+        let twice = |other: &Node| name.is_some() && other.attribute("name") == name;
+        if node.prev_siblings().skip(1).filter(Node::is_element).any(|other| twice(&other)) {
+            let name = name.unwrap_or_default();
+            return failed(text, node, format!("`{name}` is there twice"));
+        }
+    }
+    match root.attribute("version").unwrap_or_default() {
+        version if version.starts_with("1.39") => Ok(()),
+        version => failed(text, root, format!("version `{version}`, where 1.39 is read")),
+    }
+}
+
 struct Graph<'a, 'input> {
     text: &'a str,
     /// Nodes by their names.
@@ -110,7 +184,7 @@ const MAX_DEPTH: usize = 2000;
 
 impl Graph<'_, '_> {
     fn failed<T>(&self, node: Node, message: String) -> Read<T> {
-        Err(ReadError::at(self.text, node.range().start, message))
+        failed(self.text, node, message)
     }
 
     /// Reads where an input or an output of the graph comes from.
@@ -181,12 +255,22 @@ impl Graph<'_, '_> {
             "mix" => (Op::Lerp, &["bg", "fg", "mix"]),
             // The first where value1 is greater.
             "ifgreater" => (Op::Select, &["value2", "value1", "in1", "in2"]),
-            "ifgreatereq" => return self.step(node),
-            "clamp" => return self.clamp(node),
-            "dot" => return self.input(node, "in"),
-            "constant" => return self.input(node, "value"),
+            "ifgreatereq" => (Op::Step, &["value2", "value1", "in1", "in2"]),
+            "clamp" => (Op::Saturate, &["in", "low", "high"]),
+            "dot" => (Op::Max, &["in"]),
+            "constant" => (Op::Max, &["value"]),
             other => return self.failed(node, format!("the node `{other}` is not read")),
         };
+        let names = node.children().filter(Node::is_element).filter_map(|n| n.attribute("name"));
+        if let Some(other) = names.into_iter().find(|name| !inputs.contains(name)) {
+            return self.failed(node, format!("the input `{other}` is not read here"));
+        }
+        match node.tag_name().name() {
+            "ifgreatereq" => return self.step(node),
+            "clamp" => return self.clamp(node),
+            "dot" | "constant" => return self.input(node, inputs[0]),
+            _ => {}
+        }
         let args: Vec<Arg> =
             inputs.iter().map(|name| self.input(node, name)).collect::<Read<_>>()?;
         Ok(self.draft.push(op, &args))

@@ -19,11 +19,12 @@ mod spelled;
 mod statement;
 mod types;
 
-pub use contract::{Stated, StatedError, formula_line};
+pub use contract::{Stated, StatedError, derived_line, formula_line};
 pub(super) use contract::{let_line, name_line};
 pub use file::{language_of, read_file};
 pub use over::Over;
 
+use super::call::column_called;
 use super::signature::returned_names;
 use super::{Head, Language, Parameter, Syntax};
 use crate::eval::{Arithmetic, Half};
@@ -32,7 +33,7 @@ use crate::program::{Arg, Draft, Names, Program, effective, place, pointed, use_
 use contract::Contract;
 use half::f16;
 use lex::{Comment, Lexed, Token, lex};
-use std::collections::HashMap;
+use std::collections::{HashMap, HashSet};
 use types::{Float, Type};
 
 /// A text that is no function of the language, or more than can be read.
@@ -110,6 +111,28 @@ impl ReadBack {
     /// As [`ReadBack::stated`].
     pub fn stated_over(&self, names: &Names) -> Result<Option<Stated>, StatedError> {
         self.contract.formula(names)
+    }
+
+    /// Returns what the comments say of outputs that are computed of the data's columns, as
+    /// `total = scale + bias`.
+    pub fn derived(&self) -> &[String] {
+        self.contract.derived()
+    }
+
+    /// Adds what the comments do not say of columns and results.
+    pub fn add_lets(&mut self, lets: &[String]) {
+        self.contract.add_lets(lets);
+    }
+
+    /// Returns the parameters' components that are none of these columns and that nothing reads.
+    pub fn unread<'a>(&'a self, columns: &'a [String]) -> impl Iterator<Item = &'a String> {
+        let args = self.program.instrs.iter().flat_map(|instr| instr.args());
+        let read: HashSet<Arg> = args.chain(&self.program.outputs).copied().collect();
+        let inputs = self.names.inputs.iter().enumerate();
+        let unread = inputs.filter(move |(i, name)| {
+            !read.contains(&Arg::Input(*i as u16)) && column_called(name, columns).is_none()
+        });
+        unread.map(|(_, name)| name)
     }
 
     /// Returns what the comments say of columns that are no parameters, and of results that are no
@@ -201,7 +224,31 @@ fn read_literal(language: Language, text: &str) -> Read<ReadBack> {
         (_, None) => return materialx::read(text),
     };
     let lexed = lex(language, &syntax.readable, text)?;
+    if language == Language::Tsl {
+        all_imported(text, &lexed)?;
+    }
     read_function(language, syntax, text, &lexed, 0)
+}
+
+/// Refuses calls of functions that no line of imports names: a module has no others.
+fn all_imported(text: &str, lexed: &Lexed) -> Read<()> {
+    let imports = text.lines().filter(|line| line.starts_with("import "));
+    let is_part = |c: char| c.is_ascii_alphanumeric() || c == '_';
+    let imported: HashSet<&str> = imports.flat_map(|line| line.split(|c| !is_part(c))).collect();
+    let calls = lexed.tokens.windows(2).enumerate().filter_map(|(i, pair)| match pair {
+        [(at, Token::Name(name)), (_, Token::Symbol('('))] if name != "return" => {
+            Some((i, *at, name))
+        }
+        _ => None,
+    });
+    let is_method = |i: usize| i > 0 && lexed.tokens[i - 1].1 == Token::Symbol('.');
+    for (i, at, name) in calls {
+        if !imported.contains(name.as_str()) && !is_method(i) {
+            let message = format!("`{name}` is not imported from 'three/tsl'");
+            return Err(ReadError::at(text, at, message));
+        }
+    }
+    Ok(())
 }
 
 /// Reads a function's head: `vec2 EnvDFG(float roughness, float nov)`. Returns it, and whether it is
@@ -219,9 +266,10 @@ pub fn read_head(language: Language, text: &str) -> Result<(Head, bool), ReadErr
     let lexed = lex(language, &syntax.readable, code)?;
     let mut reader = Reader::new(language, syntax, code, &lexed, 0);
     reader.head_alone()?;
+    let (of, qualifiers) = (reader.of, Some(reader.of_function.join(" ")));
     let Reader { function, parameters, returned, .. } = reader;
-    let head = Head { function, parameters, returned, columns: Vec::new() };
-    Ok((head, reader.of == Type::Half))
+    let head = Head { function, qualifiers, parameters, returned, columns: Vec::new() };
+    Ok((head, of == Type::Half))
 }
 
 /// Reads the function that begins with the token of this index, and its variant behind it.
@@ -296,6 +344,8 @@ struct Reader<'a> {
     /// Parameters and locals.
     values: HashMap<String, Value>,
     function: String,
+    /// The words before the function.
+    of_function: Vec<String>,
     /// The type of the function's parameters and outputs.
     of: Type,
     parameters: Vec<Parameter>,
@@ -332,6 +382,7 @@ impl<'a> Reader<'a> {
             precisions: Vec::new(),
             values: HashMap::new(),
             function: String::new(),
+            of_function: Vec::new(),
             of: Type::Single,
             local: Type::Single,
             parameters: Vec::new(),

@@ -34,7 +34,8 @@ impl ReadBack {
         let parameter = |out| move |name: &String| Parameter { name: name.clone(), size: 1, out };
         let mut parameters: Vec<Parameter> = components.iter().map(parameter(false)).collect();
         parameters.extend(outputs.iter().map(parameter(true)));
-        let head = Head { function: "f".to_owned(), parameters, returned: Some(0), columns };
+        let (function, qualifiers) = ("f".to_owned(), None);
+        let head = Head { function, qualifiers, parameters, returned: Some(0), columns };
         let results = of_truth(&inputs, &known_outputs, &head, &lets)?;
         let arguments = Arguments::of(components, &inputs, &head.columns, &lets)?;
         let column = |name: &String| Column::new(name, [0.0, 1.0]);
@@ -79,7 +80,8 @@ impl Over {
     pub fn outputs(&self, columns: &[Column]) -> Vec<String> {
         let names = columns.iter().map(|column| &column.name);
         let read = |name: &&String| {
-            self.dataset.outputs.iter().any(|result| match self.lets.of(&result.name) {
+            let said = |name| self.lets.about(name).and_then(|(about, _)| self.lets.of(about));
+            self.dataset.outputs.iter().any(|result| match said(&result.name) {
                 Some(text) => words(text).any(|word| word == *name),
                 None => result.name == **name,
             })

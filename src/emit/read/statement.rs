@@ -33,10 +33,15 @@ impl Reader<'_> {
 
     /// Reads `scale = x;`, a result that leaves by a parameter. Returns false if there is none.
     fn assigned_parameter(&mut self) -> Read<bool> {
-        let Some(Token::Name(name)) = self.peek() else { return Ok(false) };
+        let pointer = usize::from(self.syntax.out_by_pointer);
+        let Some((_, Token::Name(name))) = self.tokens.get(self.next + pointer) else {
+            return Ok(false);
+        };
         let place = self.outs.iter().position(|out| out.name == *name);
-        let Some(place) = place.filter(|_| self.is_symbol(1, '=')) else { return Ok(false) };
-        self.next += 2;
+        let is_assigned =
+            self.is_symbol(pointer + 1, '=') && (pointer == 0 || self.is_symbol(0, '*'));
+        let Some(place) = place.filter(|_| is_assigned) else { return Ok(false) };
+        self.next += pointer + 2;
         let at = self.offset();
         let Out { name, of, size, .. } = &self.outs[place];
         let (name, of, size) = (name.clone(), *of, *size);
@@ -55,7 +60,9 @@ impl Reader<'_> {
             _ => Value::Several(Several { of: String::new(), components: components.clone() }),
         };
         self.outs[place].value = Some(components);
-        self.values.insert(name, value);
+        if pointer == 0 {
+            self.values.insert(name, value);
+        }
         Ok(true)
     }
 

@@ -1,7 +1,7 @@
 //! Calls: of operations, of functions that the text defines, of holes.
 
 use super::definitions::HoleCall;
-use super::functions::{self, Function};
+use super::functions::{self, Function, OfVectors};
 use super::lex::Token;
 use super::syntax::{Frame, Parse, Parser, Value, common_width};
 use crate::op::Op;
@@ -81,7 +81,24 @@ impl Parser<'_> {
                 let result = (0..width).map(component).collect();
                 self.tokens.placed(at, result)
             }
+            Function::OfVectors(OfVectors::Dot) => self.dot(&args[0], &args[1]),
+            Function::OfVectors(OfVectors::Length) => {
+                let square = self.dot(&args[0], &args[0])?;
+                self.apply(Op::Sqrt, &[square])
+            }
+            Function::OfVectors(OfVectors::Normalize) => {
+                let square = self.dot(&args[0], &args[0])?;
+                let scale = self.apply(Op::Rsqrt, &[square])?;
+                self.apply(Op::Mul, &[args[0].clone(), scale])
+            }
         }
+    }
+
+    fn dot(&mut self, a: &Value, b: &Value) -> Parse<Value> {
+        let products = self.apply(Op::Mul, &[a.clone(), b.clone()])?;
+        let (&first, others) = products.split_first().expect("a value has a component");
+        let add = |sum, &product| self.apply(Op::Add, &[sum, vec![product]]);
+        others.iter().try_fold(vec![first], add)
     }
 
     fn check_count(&self, name: &str, at: usize, given: usize, wanted: usize) -> Parse<()> {

@@ -60,6 +60,19 @@ impl Definitions {
         }
     }
 
+    /// Definitions over vectors, each with its number of components: these are the inputs.
+    pub(super) fn of_vectors(vectors: &[(String, usize)]) -> Definitions {
+        let mut definitions = Definitions::new(Scope::Dataset(&Names::default()));
+        for (name, size) in vectors {
+            let first = definitions.draft.inputs;
+            definitions.draft.inputs += size;
+            let value: Value = (first..first + size).map(|i| Arg::Input(i as u16)).collect();
+            definitions.names.inputs.push(name.clone());
+            definitions.assigned.entry(name.clone()).or_insert(value);
+        }
+        definitions
+    }
+
     /// Definitions in which functions that are called and nowhere defined are holes, and free
     /// constants are, too.
     pub(super) fn with_holes(names: &Names) -> Definitions {
@@ -82,8 +95,16 @@ impl Definitions {
         self.names.outputs.first().map_or("y", String::as_str)
     }
 
+    /// Returns true for the name of a value.
+    pub(super) fn knows(&self, name: &str) -> bool {
+        self.assigned.contains_key(name) || self.inputs.contains_key(name)
+    }
+
     /// Checks that a statement may assign the name.
     pub(super) fn check_assignable(&self, name: &str) -> Result<(), String> {
+        if let Some((vector, _)) = name.split_once('.') {
+            return Err(format!("components cannot be assigned; assign all of `{vector}`"));
+        }
         if self.inputs.contains_key(name) {
             return Err(format!("`{name}` is an input, and cannot be assigned"));
         }
@@ -228,7 +249,7 @@ impl Definitions {
 
     /// Ends with these values as the outputs.
     pub(super) fn finish_with(mut self, outputs: Value) -> Result<Program, String> {
-        self.draft.inputs = self.names.inputs.len();
+        self.draft.inputs = self.draft.inputs.max(self.names.inputs.len());
         self.draft.outputs = outputs;
         if let Some(free) = self.free.first() {
             return Err(format!("`${}` stands in a function; give it a value", free.name));

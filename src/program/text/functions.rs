@@ -23,11 +23,23 @@ const FORMULAS: [(&str, &[&str], &str); 7] = [
     ),
 ];
 
+/// Functions of vectors.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum OfVectors {
+    Dot,
+    Length,
+    Normalize,
+}
+
+const OF_VECTORS: [(&str, OfVectors); 3] =
+    [("dot", OfVectors::Dot), ("length", OfVectors::Length), ("normalize", OfVectors::Normalize)];
+
 /// What a name before `(` means.
 pub(super) enum Function {
     Operation(Op),
     /// A formula over the arguments.
     Formula(Parsed),
+    OfVectors(OfVectors),
 }
 
 impl Function {
@@ -37,6 +49,9 @@ impl Function {
             let names = Names::new(parameters.iter().copied(), ["y"]);
             let parsed = parse_template(text, Scope::Dataset(&names));
             return Some(Function::Formula(parsed.expect("a formula of the table")));
+        }
+        if let Some((_, function)) = OF_VECTORS.iter().find(|(known, _)| *known == name) {
+            return Some(Function::OfVectors(*function));
         }
         let renamed = RENAMED.iter().find(|(known, _)| *known == name).map(|(_, op)| *op);
         renamed.or_else(|| Op::from_name(name)).map(Function::Operation)
@@ -54,6 +69,8 @@ impl Function {
         match self {
             Function::Operation(op) => op.arity(),
             Function::Formula(formula) => formula.program.inputs,
+            Function::OfVectors(OfVectors::Dot) => 2,
+            Function::OfVectors(OfVectors::Length | OfVectors::Normalize) => 1,
         }
     }
 }
@@ -61,7 +78,9 @@ impl Function {
 /// Returns all names of functions.
 pub(super) fn names() -> impl Iterator<Item = &'static str> {
     let operations = Op::ALL.iter().map(|op| op.name());
-    operations.chain(RENAMED.map(|(name, _)| name)).chain(FORMULAS.map(|(name, ..)| name))
+    let named =
+        operations.chain(RENAMED.map(|(name, _)| name)).chain(FORMULAS.map(|(name, ..)| name));
+    named.chain(OF_VECTORS.map(|(name, _)| name))
 }
 
 #[cfg(test)]

@@ -249,6 +249,7 @@ fn split(text: &str) -> Result<Vec<(usize, Token)>, ParseError> {
             }
             c if c.is_ascii_alphabetic() || c == '_' => {
                 at = start + name_length(&text[start..]);
+                at += components_length(&text[at..]);
                 Token::Name(text[start..at].to_owned())
             }
             other => {
@@ -266,6 +267,12 @@ fn split(text: &str) -> Result<Vec<(usize, Token)>, ParseError> {
 
 fn name_length(text: &str) -> usize {
     text.bytes().take_while(|b| b.is_ascii_alphanumeric() || *b == b'_').count()
+}
+
+/// Returns the length of what names components of a vector, `.xyz`.
+fn components_length(text: &str) -> usize {
+    let begins = |name: &&str| name.starts_with(|c: char| c.is_ascii_alphabetic());
+    text.strip_prefix('.').filter(begins).map_or(0, |name| 1 + name_length(name))
 }
 
 fn number_length(text: &str) -> usize {

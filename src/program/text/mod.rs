@@ -25,6 +25,7 @@ pub use claim::{ALWAYS_ASKED, Claim};
 pub(crate) use excerpt::{place, plain, pointed};
 pub(super) use guess::parse_guess;
 pub(super) use holes::{Holes, OpenCall, OpenFunction};
+pub(crate) use parse::parse_expression;
 pub use parse::{
     FreeConstant, MAX_FORMULA, ParseError, Parsed, Scope, parse, parse_open, parse_template,
 };

@@ -91,6 +91,20 @@ pub fn parse_open(text: &str, outputs: &[String]) -> Result<Parsed, ParseError> 
     parse_template(text, Scope::Open { outputs })
 }
 
+/// Parses an expression over vectors, as `f0*scale + bias` or `dot(n, v.xyz)`. Each is a name with
+/// its number of components, which are the next inputs; the outputs are the expression's
+/// components.
+///
+/// # Errors
+/// As [`parse`].
+pub(crate) fn parse_expression(
+    text: &str,
+    vectors: &[(String, usize)],
+) -> Result<Program, ParseError> {
+    check_length(text)?;
+    syntax::parse_expression(text, vectors)
+}
+
 /// Parses a text that may hold free constants; these start at 1.
 ///
 /// # Errors

@@ -6,7 +6,7 @@ use super::holes::Holes;
 use super::lex::{Number, Token, Tokens};
 use super::{Names, ParseError, Parsed, Scope};
 use crate::op::Op;
-use crate::program::Arg;
+use crate::program::{Arg, Program};
 use std::collections::HashMap;
 
 /// Parses a whole text.
@@ -30,6 +30,20 @@ pub(super) fn assigned_in(text: &str, names: &Names) -> Parse<Vec<String>> {
     let mut parser = Parser::new(text, Definitions::with_holes(names))?;
     parser.statements()?;
     Ok(parser.definitions.outputs_assigned())
+}
+
+/// Parses an expression over vectors, each with its number of components; these are the inputs, in
+/// order.
+pub(super) fn parse_expression(text: &str, vectors: &[(String, usize)]) -> Parse<Program> {
+    let mut parser = Parser::new(text, Definitions::of_vectors(vectors))?;
+    let value = parser.expression()?;
+    parser.check_ended()?;
+    let at = parser.tokens.offset();
+    if parser.tokens.peek().is_some() {
+        return parser.tokens.error(at, "expected one expression");
+    }
+    let Parser { tokens, definitions, .. } = parser;
+    tokens.placed(at, definitions.finish_with(value))
 }
 
 /// The values of an expression: one, or those of a vector.
@@ -307,9 +321,15 @@ impl Parser<'_> {
 
     fn name(&mut self, name: String, at: usize) -> Parse<Value> {
         let local = self.frame().values.iter().rev().find(|(known, _)| *known == name);
-        match local {
-            Some((_, value)) => Ok(value.clone()),
-            None => self.tokens.placed(at, self.definitions.name(name)),
+        if let Some((_, value)) = local {
+            return Ok(value.clone());
+        }
+        match name.split_once('.') {
+            Some((vector, letters)) if !self.definitions.knows(&name) => {
+                let value = self.name(vector.to_owned(), at)?;
+                self.tokens.placed(at, swizzled(vector, &value, letters))
+            }
+            _ => self.tokens.placed(at, self.definitions.name(name)),
         }
     }
 
@@ -340,6 +360,27 @@ impl Parser<'_> {
         let components = (0..width).map(component).collect();
         self.tokens.placed(at, components)
     }
+}
+
+/// The letters of a vector's components, as shading languages have them.
+const LETTERS: [&str; 2] = ["xyzw", "rgba"];
+
+/// Returns the components `vector.letters` of a value.
+fn swizzled(vector: &str, value: &Value, letters: &str) -> Result<Value, String> {
+    let places = LETTERS.iter().find_map(|known| {
+        let places = letters.chars().map(|letter| known.find(letter));
+        places.collect::<Option<Vec<usize>>>()
+    });
+    let components = places.and_then(|places| {
+        places.iter().map(|&place| value.get(place).copied()).collect::<Option<Value>>()
+    });
+    components.filter(|_| value.len() > 1).ok_or_else(|| match value.len() {
+        1 => format!("`{vector}` is one value, and has no components `{letters}`"),
+        count => {
+            let has = LETTERS[0].get(..count).unwrap_or(LETTERS[0]);
+            format!("`{vector}` has the components `{has}`, and no `{letters}`")
+        }
+    })
 }
 
 /// Returns the number of components of what is computed of some values; single values go with each
