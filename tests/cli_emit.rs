@@ -204,6 +204,22 @@ fn a_function_under_a_given_head_is_verified() {
 }
 
 #[test]
+fn the_functions_for_engines_compute_their_formulas() {
+    let folder = Path::new("results/engines");
+    let table = std::fs::read_to_string(folder.join("dropins.csv")).unwrap();
+    let rows: Vec<Vec<&str>> =
+        table.lines().skip(1).map(|line| line.split(',').collect()).collect();
+    assert_eq!(rows.len(), 8);
+    for row in rows {
+        let [_, file, data, ..] = row.as_slice() else { panic!("{row:?}") };
+        let [file, data] = [format!("results/engines/{file}"), format!("datasets/{data}.bin")];
+        let verify = lgp_here(&["verify", &file, &data, "--max-error", "0.015"]);
+        assert!(verify.status.success(), "{file}: {}", text(&verify.stderr));
+        assert!(text(&verify.stdout).contains(AS_COMMENTED), "{file}: {}", text(&verify.stdout));
+    }
+}
+
+#[test]
 fn what_no_comment_says_is_said_to_verify() {
     let folder = tempfile::tempdir().unwrap();
     let head = ["--signature", "vec2 env(float alpha, float nov)", "--no-comments"];

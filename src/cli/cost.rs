@@ -19,7 +19,7 @@ pub struct Args {
     /// The GPUs: built-in profiles, .ron files, or all built-in profiles
     #[arg(long, value_name = "P,…|all", value_delimiter = ',', default_value = "all")]
     gpu: Vec<String>,
-    /// The formula's outputs [default: its last statement]
+    /// The formula's outputs [default: the statements that no later one reads]
     #[arg(long, value_name = "A,B", value_delimiter = ',')]
     outputs: Vec<String>,
 }

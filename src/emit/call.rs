@@ -160,13 +160,19 @@ pub fn call(program: &Program, names: &Names, head: &Head, lets: &Lets) -> Resul
     let scope = Scope::default().and(&names.outputs, &outputs);
     let scope = scope.or(Scope::of_components(&components)).and(&names.inputs, &inputs);
     let mut results = Vec::new();
+    // The statement that was read last, whose components follow each other.
+    let mut said: Option<(String, Vec<Arg>)> = None;
     for target in &targets {
         let (value, name) = match target {
             Target::Output(output) => (outputs[*output], names.outputs[*output].clone()),
             Target::Let { name, about, place } => {
-                let values = scope.values(&mut draft, about, lets.of(about).unwrap_or_default())?;
+                if said.as_ref().is_none_or(|(known, _)| known != about) {
+                    let text = lets.of(about).unwrap_or_default();
+                    said = Some((about.clone(), scope.values(&mut draft, about, text)?));
+                }
+                let values = said.as_ref().map_or(&[][..], |(_, values)| values);
                 let size = targets.iter().filter(|other| other.is_about(about)).count();
-                (component(about, &values, *place, size)?, name.clone())
+                (component(about, values, *place, size)?, name.clone())
             }
         };
         draft.outputs.push(value);

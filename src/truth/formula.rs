@@ -51,10 +51,7 @@ pub fn exact_formula(text: &str, names: &Names) -> Option<ExactProgram> {
 /// # Errors
 /// As [`Truth::formula`], about the text.
 pub fn read_formula(text: &str, outputs: &[String]) -> Result<Parsed, Error> {
-    let parsed = match outputs {
-        [] => parse_open(text, &parse_open(text, &[])?.unread)?,
-        named => parse_open(text, named)?,
-    };
+    let parsed = parse_open(text, outputs)?;
     if let Some(free) = parsed.free.first() {
         let at = text.find(&format!("${}", free.name)).unwrap_or(0);
         let message =

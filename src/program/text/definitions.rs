@@ -263,7 +263,8 @@ impl Definitions {
 
     fn finish_over(mut self, slots: usize) -> Result<Parsed, String> {
         if self.open && self.names.outputs.is_empty() {
-            self.names.outputs.extend(self.statements.last().cloned());
+            let unread = self.statements.iter().filter(|name| !self.read.contains(*name));
+            self.names.outputs.extend(unread.cloned());
         }
         if self.names.outputs.is_empty() {
             return Err("the formula has no statement".to_owned());

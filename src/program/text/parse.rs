@@ -44,7 +44,7 @@ pub enum Scope<'a> {
     Dataset(&'a Names),
     /// Unknown names are inputs, in order of appearance.
     Open {
-        /// The outputs' names; if empty, the last statement's name is the only output.
+        /// The outputs' names; if empty, the statements that no later one reads are the outputs.
         outputs: &'a [String],
     },
 }
