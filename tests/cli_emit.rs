@@ -181,6 +181,48 @@ fn a_function_under_a_given_head_is_verified() {
             "\nconst env = Fn(([roughness, dotNV]) => {",
         ),
         (
+            "q.glsl",
+            &[
+                "--lang",
+                "glsl",
+                "--signature",
+                "vec2 dfg(const in float roughness, in float dotNV)",
+            ],
+            "vec2 dfg(const in float roughness, in float dotNV) {",
+        ),
+        (
+            "r.cu",
+            &[
+                "--lang",
+                "cuda",
+                "--signature",
+                "static __device__ float2 dfg(float roughness, float NoV)",
+            ],
+            "\nstatic __device__ float2 dfg(float roughness, float NoV) {",
+        ),
+        (
+            "s.hlsl",
+            &[
+                "--for",
+                "unity",
+                "--signature",
+                "void Env_float(float NdotV, float Roughness, out float Scale, out float Bias)",
+            ],
+            "void Env_half(half NdotV, half Roughness, out half Scale, out half Bias) {",
+        ),
+        (
+            "t.hlsl",
+            &[
+                "--for",
+                "unity",
+                "--signature",
+                "void Env_half(float3 F0, float NdotV, float Roughness, out float3 Out)",
+                "--let",
+                "Out = F0*scale + bias",
+            ],
+            "void Env_float(float3 F0, float NdotV, float Roughness, out float3 Out) {",
+        ),
+        (
             "p.js",
             &["--lang", "js", "--signature", "function env(roughness, dotNV)"],
             "\nfunction env(roughness, dotNV) {",
@@ -336,6 +378,33 @@ fn what_a_compiler_would_understand_otherwise_is_found() {
         ("l.tsl.js", by_type("tsl"), "mul(0.15, t0)", "0.15*t0"),
         ("m.glsl.js", vec!["--for", "three"], "`;", "`.replace('0.9', '0.1');"),
         ("n.glsl.js", vec!["--for", "three"], "    float t1", "    // \\n t1 = 0.0;\n    float t1"),
+        (
+            "o.glsl.js",
+            vec!["--for", "three"],
+            "export const",
+            "String.raw = () => 0;\nexport const",
+        ),
+        ("p.glsl.js", vec!["--for", "three"], "/* glsl */`", "hlsl`"),
+        ("q.glsl", vec!["--lang", "glsl", "--clamp-inputs"], "clamp(n_dot_v, 0.0, 1.0)", "n_dot_v"),
+        (
+            "r.osl",
+            by_type("osl"),
+            "output float scale, output float bias",
+            "output float bias, output float scale",
+        ),
+        (
+            "s.glsl",
+            by_type("glsl"),
+            "float n_dot_v, float roughness",
+            "float roughness, float n_dot_v",
+        ),
+        ("t.c", by_type("c"), "float scale;", "float sale;"),
+        ("u.rs", by_type("rust"), "    let t1", "    /* a /* b */ /* c */ let t1"),
+        ("v.py", by_type("python"), "    return", "return"),
+        ("w.py", by_type("python"), "    t1 =", "  t1 ="),
+        ("x.js", by_type("js"), ", 0.0)", ", 00)"),
+        ("y.mtlx", by_type("materialx"), "<output", "1 <output"),
+        ("z.gdshaderinc", vec!["--for", "godot"], "#endif", ""),
     ] {
         let (code, _) = emitted_and_verified(folder.path(), file, &form);
         assert!(code.contains(from), "{file}: {code}");
@@ -392,6 +461,24 @@ fn what_does_not_fit_is_refused_with_its_remedy() {
         (&["--let", "roughness = alpha*alpha"], "`alpha`"),
         (&["--let", "roughness"], "expected `name = expression`"),
         (&["--let", "roughness = n_dot_v; roughness = 1"], "given twice"),
+        (&["--signature", "void f(float roughness, float nov)"], "nothing is returned"),
+        (
+            &["--signature", "float2 f(float n, float roughness)", "--let", "n_dot_v = dot(n, n)"],
+            "`dot` is of vectors",
+        ),
+        (
+            &[
+                "--signature",
+                "float2 f(float roughness, float nov)",
+                "--let",
+                "return.y = scale*bias",
+            ],
+            "--let \"return.x = scale\"",
+        ),
+        (
+            &["--signature", "float2 f(float roughness, float nov, float NoV)"],
+            "several parameters may be `n_dot_v`: nov, NoV",
+        ),
         (&["--name", "2x"], "no name of a function in hlsl"),
         (&["--name", "saturate"], "no name of a function in hlsl"),
         (

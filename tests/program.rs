@@ -243,7 +243,7 @@ fn vectors_have_components_lengths_and_products() {
     check("v = (x, y, z); f = v.x + 10*v.y + 100*v.z", 1243.0);
     check("v = (x, y, z); w = v.zyx; u = w.gb; f = w.r + 10*u.y", 42.0);
     check("v = (x, y, z); f = dot(v, v.yxz)", 168.0);
-    check("f = length((x, y, z)) + length(-x)", 16.0);
+    check("f = length((x, y, z)) + length((-x, 4))", 18.0);
     check("v = (x, y, z); n = normalize(v); f = dot(n, v)", 13.0);
     check("g(v) = v.y*v.w; f = g((x, y, z, x))", 12.0);
     let error = |text: &str| parse(text, &names).unwrap_err().to_string();
@@ -254,6 +254,7 @@ fn vectors_have_components_lengths_and_products() {
         ("f = w.x", "unknown name `w`"),
         ("v = (x, y); v.x = 1; f = v.y", "components cannot be assigned; assign all of `v`"),
         ("f = dot((x, y), (x, y, z))", "do not go together"),
+        ("f = length(-x)", "`length` is of vectors, not of single values"),
         ("f = dot(x)", "`dot` takes 2 arguments, not 1"),
     ] {
         assert!(error(text).contains(expected), "{text}: {}", error(text));

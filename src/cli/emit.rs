@@ -153,8 +153,12 @@ fn form(args: &Args) -> Result<Form, Failure> {
         return Err(usage(message));
     }
     if let Some(text) = &args.signature {
-        let (head, in_half) =
-            read_head(language, text).map_err(|error| usage(format!("--signature: {error}")))?;
+        let (head, in_half) = read_head(language, text)
+            .map_err(|error| usage(format!("--signature {}", error.alone())))?;
+        if args.engine.is_some_and(Engine::has_both) && head.returned != Some(0) {
+            let message = "--signature: a Custom Function node returns nothing: write `void`, and `out` before results";
+            return Err(usage(message.to_owned()));
+        }
         let halves = args.half || args.half_error.is_some();
         let tells = language.tells_halves() && !args.engine.is_some_and(Engine::has_both);
         if in_half != halves && tells {

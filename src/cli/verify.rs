@@ -5,7 +5,7 @@ use super::{Common, Failure, against, argument};
 use crate::dataset::{Dataset, Split};
 use crate::emit::{
     CallError, Engine, Language, MAX_SNIPPET, ReadBack, Stated, StatedError, column_called,
-    language_of, read_file,
+    language_of, read_file, spread,
 };
 use crate::eval::{Evaluator, OutputError, Samples, Score, Tape};
 use crate::program::{Names, Program};
@@ -56,6 +56,10 @@ pub struct Args {
     /// The largest RMSE allowed, over the outputs, on the search split, as `lgp front` shows it
     #[arg(long, value_name = "E", value_parser = argument::error)]
     max_error: f64,
+    /// An output that is computed of the data's columns, as for `lgp search`; the comment may say
+    /// it, too
+    #[arg(long, value_name = "NAME = EXPRESSION", requires = "dataset")]
+    derive: Vec<String>,
     /// The columns that the function returns, in order [default: the names in the function]
     #[arg(long, value_name = "A,B", value_delimiter = ',')]
     pub(super) outputs: Option<Vec<String>>,
@@ -92,12 +96,9 @@ fn snippet_on(args: &Args, dataset: &Path, common: &Common) -> Result<(), Failur
     let read = read_file(&args.snippet, &text).expect("its name says what it is");
     let (language, mut code) = read.map_err(|error| unusable(&args.snippet, &error))?;
     code.add_lets(args.sampled.lets());
-    let Subject { dataset: whole, .. } = Subject::load_with(
-        dataset,
-        args.scene.as_deref(),
-        code.derived(),
-        |data| Ok(data.clone()),
-    )?;
+    let derived = [code.derived(), &args.derive].concat();
+    let Subject { dataset: whole, .. } =
+        Subject::load_with(dataset, args.scene.as_deref(), &derived, |data| Ok(data.clone()))?;
     let code = &code;
     let refused = |error: CallError| unusable(&args.snippet, &error);
     let known: Vec<String> = whole.inputs.iter().map(|column| column.name.clone()).collect();
@@ -120,13 +121,20 @@ fn snippet_on(args: &Args, dataset: &Path, common: &Common) -> Result<(), Failur
 fn adapted(args: &Args, code: &ReadBack, whole: &Dataset, common: &Common) -> Result<(), Failure> {
     let refused = |error: CallError| unusable(&args.snippet, &error);
     let outputs = args.outputs.as_deref().unwrap_or(&code.names.outputs);
-    let over = code.over(whole, outputs).map_err(refused)?;
-    let made = |split: &Split| split.columns.iter().flatten().all(|value| value.is_finite());
-    if !made(&over.dataset.search) || !made(&over.dataset.validation) {
-        let reason =
-            "no parameters give some values of the data, by what its comments say (`let:`)";
+    let mut over = code.over(whole, outputs).map_err(refused)?;
+    let rows = whole.search.rows() + whole.validation.rows();
+    let (search, validation) = (made(&over.dataset.search), made(&over.dataset.validation));
+    let left = search.rows() + validation.rows();
+    if search.rows() == 0 || validation.rows() == 0 {
+        let reason = "no parameters give the values of the data, by what its comments say (`let:`)";
         return Err(unusable(&args.snippet, &reason));
     }
+    if left < rows {
+        let share = 100.0 * left as f64 / rows as f64;
+        common
+            .note(&format!("verified on {share:.1} % of the data: no parameters give the others"));
+    }
+    (over.dataset.search, over.dataset.validation) = (search, validation);
     let score = score(code, &over.dataset);
     let columns = Names {
         inputs: whole.inputs.iter().map(|column| column.name.clone()).collect(),
@@ -144,6 +152,15 @@ fn adapted(args: &Args, code: &ReadBack, whole: &Dataset, common: &Common) -> Re
         }
     };
     conclude(args, &score, outputs, code.in_half, agreement, common)
+}
+
+/// Returns the rows that parameters were found for.
+fn made(split: &Split) -> Split {
+    let is_made = |row: &usize| split.columns.iter().all(|column| column[*row].is_finite());
+    let rows: Vec<usize> = (0..split.rows()).filter(is_made).collect();
+    let of = |column: &Vec<f32>| rows.iter().map(|&row| column[row]).collect();
+    let weights = if split.weights.is_empty() { Vec::new() } else { of(&split.weights) };
+    Split { columns: split.columns.iter().map(of).collect(), weights, ..Split::default() }
 }
 
 /// Shows the errors, and fails if they are too large or the code is not as its comment says:
@@ -344,7 +361,10 @@ fn difference(
     tolerance: f32,
 ) -> Result<(), String> {
     let mut evaluator = Evaluator::default();
-    for split in [&dataset.search, &dataset.validation] {
+    let around = around(&dataset.validation, names.inputs.len());
+    let exact = tolerance == 0.0;
+    for split in [&dataset.search, &dataset.validation].into_iter().chain(exact.then_some(&around))
+    {
         let samples = Samples::new(split, names.inputs.len());
         let [found, expected] =
             [program, formula].map(|p| evaluator.outputs(&Tape::new(&p.unfused()), &samples));
@@ -362,6 +382,23 @@ fn difference(
         }
     }
     Ok(())
+}
+
+/// Returns points in and around the domain, where code that differs from its formula only between the
+/// samples or outside, as by a clamp, differs.
+fn around(split: &Split, inputs: usize) -> Split {
+    // By hand.
+    const POINTS: usize = 1024;
+    let ends = |column: &Vec<f32>| {
+        let finite = column.iter().copied().filter(|x| x.is_finite());
+        finite.fold([f32::MAX, f32::MIN], |[low, high], x| [low.min(x), high.max(x)])
+    };
+    let columns = split.columns[..inputs].iter().enumerate().map(|(i, column)| {
+        let [low, high] = ends(column);
+        let at = |n: usize| low + (high - low) * (3.0 * spread(i, n) as f32 - 1.0);
+        (0..POINTS).map(at).collect()
+    });
+    Split { columns: columns.collect(), ..Split::default() }
 }
 
 fn shown(verified: &Verified) -> String {

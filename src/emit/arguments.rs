@@ -156,8 +156,9 @@ impl Arguments {
     }
 }
 
-/// Returns values in [0, 1) that fill it evenly: multiples of the golden ratio.
-fn spread(component: usize, number: usize) -> f64 {
+/// Returns values in [0, 1) that fill it evenly: multiples of the golden ratio, others for each
+/// component.
+pub fn spread(component: usize, number: usize) -> f64 {
     let golden = 0.618_033_988_749_894_9;
     (golden * (number + 1) as f64 + 0.3 * component as f64).fract()
 }

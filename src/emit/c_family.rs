@@ -116,9 +116,13 @@ pub(super) fn first_line(syntax: &Syntax, head: &WrittenHead, returned: &str) ->
 pub(super) fn parameters(syntax: &Syntax, head: &WrittenHead) -> String {
     let parameters = head.parameters.iter().map(|parameter| {
         let of = syntax.types[parameter.size - 1];
-        match (parameter.out, syntax.out_parameter) {
+        let written = match (parameter.out, syntax.out_parameter) {
             (true, Some(out_parameter)) => out_parameter(of, &parameter.name),
             _ => (syntax.parameter)(of, &parameter.name),
+        };
+        match parameter.qualifiers.as_str() {
+            "" => written,
+            words => format!("{words} {written}"),
         }
     });
     parameters.collect::<Vec<_>>().join(", ")

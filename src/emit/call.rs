@@ -1,7 +1,7 @@
 //! A program under another head: its inputs by other names, in another order, as components of
 //! vectors, or computed from what is given; its outputs as what a caller expects.
 
-use super::read::{let_line, name_line};
+use super::read::{call_line, let_line, name_line};
 use super::signature::{Head, Signature, returned_names, vector_of, vectors};
 use crate::program::{Arg, Draft, Names, ParseError, Program, effective, parse_expression};
 use crate::suggest::did_you_mean;
@@ -40,6 +40,11 @@ pub enum CallError {
          `--let \"{column} = …\"`"
     )]
     NoParameter { column: String, parameters: String, hint: String },
+    /// A column that several parameters may be.
+    #[error(
+        "several parameters may be `{column}`: {parameters}; say which by `--let \"{column} = …\"`"
+    )]
+    Several { column: String, parameters: String },
     /// A statement about something else than a column or a result.
     #[error("`{target}` is neither an input ({inputs}) nor a result ({results}){hint}")]
     NoTarget { target: String, inputs: String, results: String, hint: String },
@@ -60,6 +65,9 @@ pub enum CallError {
         if *.returned == 1 { "it is" } else { "they are" },
     )]
     Returned { returned: usize, outputs: usize, names: String, first: String, target: String },
+    /// A function that gives no result.
+    #[error("nothing is returned, and no result leaves by a parameter; the outputs are {outputs}")]
+    NoResult { outputs: String },
     /// A value of another number of components than is said to be it.
     #[error(
         "`{target}` has {}, but is given {found}",
@@ -155,7 +163,7 @@ pub fn call(program: &Program, names: &Names, head: &Head, lets: &Lets) -> Resul
     let mut draft = Draft { inputs: components.len(), ..Draft::default() };
     let (inputs, mut comments) = inputs(&mut draft, program, names, head, lets)?;
     let outputs = draft.append(program, &inputs);
-    let targets = targets(head, names, lets)?;
+    let targets = targets(head, names, lets, &mut comments)?;
     known_targets(lets, names, head, &targets)?;
     let scope = Scope::default().and(&names.outputs, &outputs);
     let scope = scope.or(Scope::of_components(&components)).and(&names.inputs, &inputs);
@@ -179,6 +187,8 @@ pub fn call(program: &Program, names: &Names, head: &Head, lets: &Lets) -> Resul
         results.push(name);
     }
     comments.extend(lets.lines());
+    let parameters: Vec<&str> = head.parameters.iter().map(|one| one.name.as_str()).collect();
+    comments.push(call_line(&head.function, &parameters));
     let out = head.parameters.iter().filter(|parameter| parameter.out);
     let returned = targets.len() - out.map(|parameter| parameter.size).sum::<usize>();
     let signature = Signature {
@@ -235,6 +245,11 @@ fn inputs(
                 values.push(draft.constant(0.0));
                 continue;
             }
+            let alike = alike(column, components);
+            if alike.len() > 1 {
+                let (column, parameters) = (column.clone(), alike.join(", "));
+                return Err(CallError::Several { column, parameters });
+            }
             return Err(CallError::NoParameter {
                 column: column.clone(),
                 parameters: listed(components),
@@ -266,12 +281,15 @@ fn place_of(name: &str, components: &[String]) -> Option<usize> {
 
 /// Returns the component that is called as the column, or as such a quantity is called elsewhere.
 pub(super) fn component_of(column: &str, components: &[String]) -> Option<usize> {
-    place_of(column, components).or_else(|| {
-        let mut alike =
-            components.iter().enumerate().filter(|(_, name)| quantity(name) == quantity(column));
-        let first = alike.next().map(|(place, _)| place);
-        first.filter(|_| alike.next().is_none())
+    place_of(column, components).or_else(|| match alike(column, components).as_slice() {
+        [only] => place_of(only, components),
+        _ => None,
     })
+}
+
+fn alike<'a>(column: &str, components: &'a [String]) -> Vec<&'a str> {
+    let alike = components.iter().filter(|name| quantity(name) == quantity(column));
+    alike.map(String::as_str).collect()
 }
 
 /// Returns the column that a parameter of this name is, if it is called as such a quantity is
@@ -291,7 +309,12 @@ fn quantity(name: &str) -> String {
 }
 
 /// Returns what each result is: first what is returned, then what leaves by parameters.
-fn targets(head: &Head, names: &Names, lets: &Lets) -> Result<Vec<Target>, CallError> {
+fn targets(
+    head: &Head,
+    names: &Names,
+    lets: &Lets,
+    comments: &mut Vec<String>,
+) -> Result<Vec<Target>, CallError> {
     let outs = head.components(true);
     let mut left: Vec<usize> = (0..names.outputs.len()).collect();
     let mut by_parameters = Vec::new();
@@ -300,6 +323,9 @@ fn targets(head: &Head, names: &Names, lets: &Lets) -> Result<Vec<Target>, CallE
             (Some(target), _) => target,
             (None, Some(output)) => {
                 left.retain(|other| *other != output);
+                if *name != names.outputs[output] {
+                    comments.push(name_line(name, &names.outputs[output]));
+                }
                 Target::Output(output)
             }
             (None, None) => {
@@ -313,35 +339,46 @@ fn targets(head: &Head, names: &Names, lets: &Lets) -> Result<Vec<Target>, CallE
         names.iter().map(|name| lets.target(name)).collect::<Vec<_>>()
     };
     let count = head.returned.unwrap_or_else(|| {
-        let said = (1..=4).rev().find(|&n| named(n).iter().all(Option::is_some));
+        let itself = |name: &String| lets.of(name).is_some();
+        let said = (1..=4).rev().find(|&n| returned_names(n).iter().all(itself));
         said.unwrap_or(left.len())
     });
-    let mut returned = Vec::new();
+    let said = named(count);
+    // What is said of one is not left for the others.
+    let named = |output: usize| {
+        let is_it = |about: &str| lets.of(about) == Some(names.outputs[output].as_str());
+        said.iter()
+            .flatten()
+            .any(|target| matches!(target, Target::Let { about, .. } if is_it(about)))
+    };
+    left.retain(|&output| !named(output));
+    let unsaid = said.iter().filter(|target| target.is_none()).count();
+    let returns_none = count == 0 && head.returned == Some(0);
+    if (unsaid > 0 || said.is_empty()) && unsaid != left.len() && !returns_none {
+        let places = returned_names(count.max(1));
+        let place = said.iter().position(Option::is_none).unwrap_or(0);
+        return Err(wrong_count(unsaid, &left, names, &places[place]));
+    }
     let mut rest = left.iter();
-    for said in named(count) {
-        match (said, rest.next()) {
-            // Where one is said by a name, all others are in the order of what is left.
-            (Some(target), _) => returned.push(target),
-            (None, Some(&output)) => returned.push(Target::Output(output)),
-            (None, None) => return Err(wrong_count(count, &left, names)),
-        }
+    let mut targets: Vec<Target> = said
+        .into_iter()
+        .filter_map(|target| target.or_else(|| Some(Target::Output(*rest.next()?))))
+        .collect();
+    targets.extend(by_parameters);
+    match targets.is_empty() {
+        true => Err(CallError::NoResult { outputs: listed(&names.outputs) }),
+        false => Ok(targets),
     }
-    let said_none = returned.iter().all(|target| matches!(target, Target::Output(_)));
-    if said_none && count != left.len() && !(count == 0 && head.returned == Some(0)) {
-        return Err(wrong_count(count, &left, names));
-    }
-    returned.extend(by_parameters);
-    Ok(returned)
 }
 
-fn wrong_count(returned: usize, left: &[usize], names: &Names) -> CallError {
+fn wrong_count(returned: usize, left: &[usize], names: &Names, target: &str) -> CallError {
     let left_names: Vec<String> = left.iter().map(|&i| names.outputs[i].clone()).collect();
     CallError::Returned {
         returned,
         outputs: left.len(),
         names: listed(&left_names),
         first: names.outputs.first().cloned().unwrap_or_default(),
-        target: returned_names(returned.max(1)).swap_remove(0),
+        target: target.to_owned(),
     }
 }
 

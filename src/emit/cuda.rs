@@ -96,7 +96,9 @@ fn open(syntax: &Syntax, head: &WrittenHead, kind: &str, lines: &mut Vec<String>
     let from = lines.len();
     c_family::open(syntax, head, lines);
     let first = lines[from..].iter().position(|line| line.ends_with(") {")).expect("a first line");
-    lines[from + first].insert_str(0, &format!("{kind} "));
+    if head.qualifiers.is_none() {
+        lines[from + first].insert_str(0, &format!("{kind} "));
+    }
 }
 
 fn reserved(name: &str) -> bool {

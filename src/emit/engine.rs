@@ -275,11 +275,11 @@ impl Engine {
     pub fn head(self, function: &str, names: &Names) -> Head {
         let Conventions { functions, by_parameters, .. } = *self.conventions();
         let parameter =
-            |out| move |name: &String| Parameter { name: self.parameter_name(name), size: 1, out };
+            |out| move |name: &String| Parameter::float(&self.parameter_name(name), out);
         let mut parameters: Vec<Parameter> = names.inputs.iter().map(parameter(false)).collect();
         if by_parameters {
             // What results are called stays: it is what is shown, and what comments say.
-            let out = |name: &String| Parameter { name: name.clone(), size: 1, out: true };
+            let out = |name: &String| Parameter::float(name, true);
             parameters.extend(names.outputs.iter().map(out));
         }
         let returned = if by_parameters { Some(0) } else { None };
@@ -344,7 +344,10 @@ fn guarded(function: &str, lines: impl IntoIterator<Item = String>) -> Vec<Strin
 
 fn unity(snippet: &Snippet, half: Option<&[usize]>) -> Vec<String> {
     const SYNTAXES: [&Syntax; 2] = [&hlsl::SYNTAX, &hlsl::HALF_BY_CAST];
+    // As it is, or as one of both functions is called.
     let name = snippet.function_name();
+    let ending = ["_float", "_half"].iter().find_map(|ending| name.strip_suffix(ending));
+    let name = ending.map_or(name.clone(), str::to_owned);
     let named = |ending: &str, half: Option<&[usize]>| {
         let signature = snippet.signature.map(|signature| Signature {
             function: format!("{name}_{ending}"),

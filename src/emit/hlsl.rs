@@ -72,6 +72,10 @@ pub(super) fn reserved(name: &str) -> bool {
     // `_Atomic` and `__attribute` are DXC's, as they are clang's.
     let of_the_compiler = name.starts_with("__")
         || name.strip_prefix('_').is_some_and(|rest| rest.starts_with(|c: char| c.is_uppercase()));
+    // Shader Graph's own name of a result.
+    if name == "Out" {
+        return false;
+    }
     let name = name.to_ascii_lowercase();
     of_the_compiler
         || is_word(KEYWORDS, &name)

@@ -60,7 +60,7 @@ mod tsl;
 mod typeset;
 mod wgsl;
 
-pub use arguments::Arguments;
+pub use arguments::{Arguments, spread};
 pub use call::{Call, CallError, Lets, call, column_called};
 pub use engine::{Engine, UnknownEngine, emit_for};
 pub use header::header_lines;

@@ -56,7 +56,7 @@ impl<'a> Naming<'a> {
         let mut names = self.written.iter().cloned();
         let function = names.next().expect("a function has a name");
         let parameters: Vec<Parameter> = (parameters.iter().zip(names.by_ref()))
-            .map(|(parameter, name)| Parameter { name, ..*parameter })
+            .map(|(parameter, name)| Parameter { name, ..parameter.clone() })
             .collect();
         let components = |out| {
             let some = parameters.iter().filter(move |parameter| parameter.out == out);

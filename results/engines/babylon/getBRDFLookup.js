@@ -16,6 +16,7 @@
 // let: return.x = bias
 // let: return.y = max(total, bias)
 // let: return.z = 0
+// call: getBRDFLookup(NdotV, perceptualRoughness)
 // names: return_x = return.x
 // names: return_y = return.y
 // names: return_z = return.z

@@ -15,6 +15,7 @@
 // names: perceptual_roughness = roughness
 // let: return.x = max(total - bias, 0)
 // let: return.y = bias
+// call: F_AB(perceptual_roughness, NdotV)
 // names: return_x = return.x
 // names: return_y = return.y
 // after Bevy 0.19 leave out the next line

@@ -13,6 +13,7 @@
 // as it is called here: 24 cycles on gcn
 // names: NdotV = n_dot_v
 // let: return = F0*max(total - bias, 0) + F90*bias
+// call: mx_ggx_dir_albedo_analytic(NdotV, alpha, F0, F90)
 // names: return_x = return.x
 // names: return_y = return.y
 // names: return_z = return.z

@@ -14,6 +14,7 @@
 // names: dotNV = n_dot_v
 // let: return.x = max(total - bias, 0)
 // let: return.y = bias
+// call: dfg(dotNV, roughness)
 // names: return_x = return.x
 // names: return_y = return.y
 export const dfg = /* glsl */`

@@ -36,6 +36,14 @@ pub(in crate::emit) fn let_line(target: &str, expression: &str) -> String {
     format!("{LET} {target} = {expression}")
 }
 
+/// The mark of a line that says how the function is called.
+const CALL: &str = "call:";
+
+/// Returns the comment line of that: `dfg(roughness, nov)`.
+pub(in crate::emit) fn call_line(function: &str, parameters: &[&str]) -> String {
+    format!("{CALL} {function}({})", parameters.join(", "))
+}
+
 /// The mark of a line that says how an output is computed of the data's columns.
 const DERIVED: &str = "derived:";
 
@@ -84,7 +92,10 @@ pub(super) struct Contract {
     lets: Vec<String>,
     /// How outputs are computed of the data's columns.
     derived: Vec<String>,
-    /// The outputs in order, of the line that says what is computed of what.
+    /// The parameters in order, of the line that says how it is called.
+    parameters: Vec<String>,
+    /// The inputs and outputs in order, of the line that says what is computed of what.
+    inputs: Vec<String>,
     outputs: Vec<String>,
 }
 
@@ -104,8 +115,12 @@ impl Contract {
         // The form from before lines were marked.
         let renamed = (text.strip_prefix(NAME).and_then(|text| text.split_once(" = ")))
             .or_else(|| text.split_once(" is the column "));
+        let listed = |names: &str| names.split(", ").map(|name| name.trim().to_owned()).collect();
         if let Some(statement) = text.strip_prefix(LET) {
             self.lets.push(statement.trim().to_owned());
+        } else if let Some(call) = text.strip_prefix(CALL) {
+            let names = call.split_once('(').and_then(|(_, names)| names.strip_suffix(')'));
+            self.parameters = names.map_or_else(Vec::new, listed);
         } else if let Some(derived) = text.strip_prefix(DERIVED) {
             self.derived.push(derived.trim().to_owned());
         } else if let Some(formula) = text.strip_prefix(FORMULA) {
@@ -113,12 +128,21 @@ impl Contract {
         } else if let Some((written, column)) = renamed {
             self.columns.insert(written.trim().to_owned(), unescaped(column));
         } else {
-            if let Some((_, outputs)) = text.split_once(" -> ").filter(|_| self.outputs.is_empty())
+            if let Some((inputs, outputs)) =
+                text.split_once(" -> ").filter(|_| self.outputs.is_empty())
             {
-                self.outputs = outputs.split(", ").map(|name| name.trim().to_owned()).collect();
+                (self.inputs, self.outputs) = (listed(inputs), listed(outputs));
             }
             self.unmarked.push((line, text.to_owned()));
         }
+    }
+
+    pub fn parameters(&self) -> &[String] {
+        &self.parameters
+    }
+
+    pub fn inputs(&self) -> &[String] {
+        &self.inputs
     }
 
     pub fn outputs(&self) -> &[String] {

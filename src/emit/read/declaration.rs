@@ -344,7 +344,7 @@ impl Reader<'_> {
         let mut names: Vec<String> = Vec::new();
         while !self.take_symbol(')') {
             let at = self.offset();
-            self.qualifiers(self.syntax.readable.of_parameters);
+            let qualifiers = self.qualifiers(self.syntax.readable.of_parameters).join(" ");
             let prefix = self.out_prefix();
             let marked = prefix.is_some_and(|word| self.take_word(word));
             let (name, written, reference) = self.typed("a parameter")?;
@@ -354,10 +354,12 @@ impl Reader<'_> {
             let is_out = if prefix.is_some() { marked } else { reference };
             if is_out {
                 self.allowed(&name, at)?;
-                self.parameters.push(Parameter { name: name.clone(), size, out: true });
+                let parameter = Parameter { size, ..Parameter::float(&name, true) };
+                self.parameters.push(Parameter { qualifiers, ..parameter });
                 self.outs.push(Out { name, of, size, value: None });
             } else {
                 self.parameter(&name, size, of, &mut names, at)?;
+                self.parameters.last_mut().expect("it was just added").qualifiers = qualifiers;
             }
             self.semantic()?;
             self.default_value()?;
@@ -403,7 +405,7 @@ impl Reader<'_> {
         if names.len() + size > usize::from(u16::MAX) {
             return self.error(at, "a function has no more than 65535 parameters");
         }
-        self.parameters.push(Parameter { name: name.to_owned(), size, out: false });
+        self.parameters.push(Parameter { size, ..Parameter::float(name, false) });
         let float = |i: usize| Float { arg: Arg::Input(i as u16), of, exact: None };
         if size == 1 {
             self.define(name, Value::Float(float(names.len())), at)?;

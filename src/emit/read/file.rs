@@ -48,6 +48,7 @@ fn of_literals(text: &str) -> Read<(Language, ReadBack)> {
         (literals, []) => literals.to_vec(),
         (_, [open, ..]) => return Err(ReadError::at(text, *open, "a literal without an end")),
     };
+    only_known(text, &literals)?;
     let mut found: Option<(Language, ReadBack)> = None;
     for [open, close] in literals {
         let escape = text[open..close].find(['\\', '$']).map(|at| open + at);
@@ -70,12 +71,56 @@ fn of_literals(text: &str) -> Read<(Language, ReadBack)> {
             (false, false) => Language::Glsl,
         };
         let code = read_back(language, &shader)?;
+        let store = text[..open].lines().next_back().unwrap_or("");
         match &mut found {
+            _ if is_wgsl != store.contains("StoreWGSL[") => {
+                return Err(ReadError::at(
+                    text,
+                    open,
+                    "a shader of another language than its place",
+                ));
+            }
             None => found = Some((language, code)),
-            Some((_, first)) => first.variant = Some(Box::new(code)),
+            Some((_, first)) if is_wgsl && first.variant.is_none() => {
+                first.variant = Some(Box::new(code));
+            }
+            Some(_) => return Err(ReadError::at(text, open, "a second shader of its language")),
         }
     }
     found.ok_or_else(|| ReadError::at(text, 0, "no shader stands in the script"))
+}
+
+/// Refuses a script that has more around its literals than engines' files have: an import, and what
+/// the literals are. Anything else may change what they mean.
+fn only_known(text: &str, literals: &[[usize; 2]]) -> Read<()> {
+    let mut at = 0;
+    for line in text.split_inclusive('\n') {
+        let start = at;
+        at += line.len();
+        // Literals begin at the end of a line, and end at the beginning of one.
+        let inside = literals.iter().any(|[open, close]| (*open + 1..*close).contains(&start));
+        let code = line.trim();
+        if inside || code.is_empty() || code.starts_with("//") || code == "`;" || is_known(code) {
+            continue;
+        }
+        let message = "not read here: beside shaders a script has an import of `ShaderStore` and what the \
+             shaders are, `export const dfg = /* glsl */` or `ShaderStore.IncludesShadersStore[\"dfg\"] =`";
+        return Err(ReadError::at(text, start + line.len() - line.trim_start().len(), message));
+    }
+    Ok(())
+}
+
+fn is_known(code: &str) -> bool {
+    let is_name = |name: &str| {
+        !name.is_empty() && name.bytes().all(|b| b.is_ascii_alphanumeric() || b == b'_')
+    };
+    let between = |before: &str, after: &str| {
+        code.strip_prefix(before).and_then(|rest| rest.strip_suffix(after)).is_some_and(is_name)
+    };
+    code == "import { ShaderStore } from \"@babylonjs/core/Engines/shaderStore\";"
+        || between("export const ", " = /* glsl */`")
+        || between("ShaderStore.IncludesShadersStore[\"", "\"] = `")
+        || between("ShaderStore.IncludesShadersStoreWGSL[\"", "\"] = `")
 }
 
 /// Returns the text with blanks in place of all but a part and the comment lines before it, so that

@@ -69,6 +69,7 @@ pub(super) fn read(text: &str) -> Read<ReadBack> {
     Ok(ReadBack {
         language,
         places: returned_names(names.outputs.len()),
+        parameters: written.inputs.clone(),
         program,
         names,
         written,

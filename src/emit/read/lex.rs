@@ -130,6 +130,10 @@ pub(super) fn lex<'a>(
         lexed.tokens.push((text.len(), Token::Symbol(';')));
     }
     refuse_uses(text, &lexed, &defined)?;
+    refuse_open_conditions(text)?;
+    if is_python {
+        refuse_indentation(text)?;
+    }
     Ok(lexed)
 }
 
@@ -184,6 +188,43 @@ fn refuse_uses(text: &str, lexed: &Lexed, defined: &[(usize, String)]) -> Result
     }
 }
 
+/// Refuses `#ifndef` without its `#endif`.
+fn refuse_open_conditions(text: &str) -> Result<(), ReadError> {
+    let count =
+        |word: &str| text.lines().filter(|line| line.trim_start().starts_with(word)).count();
+    match count("#ifndef") == count("#endif") {
+        true => Ok(()),
+        false => {
+            let at = text.find("#ifndef").or(text.find("#endif")).unwrap_or(0);
+            Err(ReadError::at(text, at, "not as many `#endif` as `#ifndef`"))
+        }
+    }
+}
+
+/// Refuses Python whose lines are not indented alike within a function, or are outside.
+fn refuse_indentation(text: &str) -> Result<(), ReadError> {
+    let (mut at, mut body, mut depth): (usize, Option<&str>, i32) = (0, None, 0);
+    let mut in_function = false;
+    for line in text.split_inclusive('\n') {
+        let code = line.split('#').next().unwrap_or("").trim_end();
+        let blank = &line[..line.len() - line.trim_start().len()];
+        let is_statement = !code.trim().is_empty() && depth == 0;
+        if is_statement && in_function {
+            let first = *body.get_or_insert(blank);
+            if blank != first || blank.is_empty() || blank.contains('\t') {
+                let message = "a line of the function that is not indented as its first, by blanks";
+                return Err(ReadError::at(text, at, message));
+            }
+        } else if is_statement && !blank.is_empty() {
+            return Err(ReadError::at(text, at, "an indented line outside of a function"));
+        }
+        depth += code.matches(['(', '[']).count() as i32 - code.matches([')', ']']).count() as i32;
+        in_function |= is_statement && code.starts_with("def ");
+        at += line.len();
+    }
+    Ok(())
+}
+
 /// Refuses line ends that not all compilers take for one: comments would end differently.
 fn refuse_other_line_ends(text: &str) -> Result<(), ReadError> {
     let mut characters = text.char_indices().peekable();
@@ -220,14 +261,15 @@ fn refuse_continued_lines(text: &str) -> Result<(), ReadError> {
     Ok(())
 }
 
-/// Returns the length of a block comment; WGSL's nest.
+/// Returns the length of a block comment; those of WGSL and Rust nest.
 fn block_length(language: Language, text: &str) -> Option<usize> {
+    let nests = matches!(language, Language::Wgsl | Language::Rust);
     let (mut depth, mut at) = (0usize, 0);
     loop {
         let close = at + text[at..].find("*/")?;
         let open = text[at..].find("/*").map(|i| at + i).filter(|&open| open < close);
         match open {
-            Some(open) if depth == 0 || language == Language::Wgsl => {
+            Some(open) if depth == 0 || nests => {
                 depth += 1;
                 at = open + 2;
             }
@@ -319,7 +361,8 @@ fn number(language: Language, readable: &Readable, text: &str) -> Result<Token, 
         return Err(format!("{digits} is too large for a 32-bit float (at most 3.4e38)"));
     }
     let exact: f64 = digits.parse().map_err(|_| wrong())?;
-    if kind == NumberKind::Integer && digits.len() > 1 && digits.starts_with('0') {
+    let is_whole = digits.bytes().all(|b| b.is_ascii_digit());
+    if is_whole && digits.len() > 1 && digits.starts_with('0') {
         return Err(format!("`{text}` is octal to some compilers; write a float"));
     }
     if kind == NumberKind::Integer && exact > f64::from(i32::MAX) {

@@ -95,6 +95,7 @@ pub(super) fn read(text: &str) -> Read<ReadBack> {
     Ok(ReadBack {
         language,
         places: returned_names(names.outputs.len()),
+        parameters: written.inputs.clone(),
         program,
         names,
         written,
@@ -122,6 +123,11 @@ const KNOWN: [(&str, &[&str]); 5] = [
 
 /// Refuses elements, attributes and double names that a document is not read with.
 fn only_known(text: &str, root: Node) -> Read<()> {
+    for node in root.descendants().filter(|node| node.is_text()) {
+        if !node.text().unwrap_or_default().trim().is_empty() {
+            return failed(text, node, "text between elements".to_owned());
+        }
+    }
     for node in root.descendants().filter(Node::is_element) {
         let tag = node.tag_name().name();
         let parent = node.parent_element().map_or("", |parent| parent.tag_name().name());
@@ -145,6 +151,9 @@ fn only_known(text: &str, root: Node) -> Read<()> {
             if !attributes.contains(&name) && !means_nothing(name) {
                 return failed(text, node, format!("the attribute `{name}` is not read here"));
             }
+        }
+        if parent == "nodedef" && node.attribute("type") != Some("float") {
+            return failed(text, node, "not of type `float`".to_owned());
         }
         let bindings = ["value", "nodename", "interfacename"];
         let bound = bindings.iter().filter(|name| node.attribute(**name).is_some()).count();

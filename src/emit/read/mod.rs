@@ -20,11 +20,10 @@ mod statement;
 mod types;
 
 pub use contract::{Stated, StatedError, derived_line, formula_line};
-pub(super) use contract::{let_line, name_line};
+pub(super) use contract::{call_line, let_line, name_line};
 pub use file::{language_of, read_file};
 pub use over::Over;
 
-use super::call::column_called;
 use super::signature::returned_names;
 use super::{Head, Language, Parameter, Syntax};
 use crate::eval::{Arithmetic, Half};
@@ -51,6 +50,12 @@ pub struct ReadError {
 }
 
 impl ReadError {
+    /// Describes an error in a text of one line that is no file.
+    pub fn alone(&self) -> String {
+        let ReadError { column, message, source_line, .. } = self;
+        format!("column {column}: {message}\n{}", pointed(source_line, *column))
+    }
+
     fn at(text: &str, offset: usize, message: impl Into<String>) -> ReadError {
         let (line, column, source_line) = place(text, offset);
         let (message, source_line) = (message.into(), source_line.to_owned());
@@ -84,6 +89,8 @@ pub struct ReadBack {
     pub precisions: Vec<Precision>,
     /// Where each output leaves: by `return`, `return.x` and so on, or by a parameter's component.
     pub places: Vec<String>,
+    /// The parameters' names in order, also of those that results leave by.
+    pub parameters: Vec<String>,
     /// True for a function of halves: its arguments and outputs are halves.
     pub in_half: bool,
     /// The same function in the other precision, where a file has both.
@@ -130,7 +137,7 @@ impl ReadBack {
         let read: HashSet<Arg> = args.chain(&self.program.outputs).copied().collect();
         let inputs = self.names.inputs.iter().enumerate();
         let unread = inputs.filter(move |(i, name)| {
-            !read.contains(&Arg::Input(*i as u16)) && column_called(name, columns).is_none()
+            !read.contains(&Arg::Input(*i as u16)) && !columns.contains(name)
         });
         unread.map(|(_, name)| name)
     }
@@ -161,9 +168,37 @@ impl ReadBack {
                 .map(|names| names.iter().map(|name| name.as_str()).collect::<Vec<_>>().join(", "));
             return Some(format!("it returns {found}, where its comment says {stated}"));
         }
+        if let Some([found, stated]) = self.other_order() {
+            return Some(format!("its parameters are {found}, where its comment says {stated}"));
+        }
         // A column's name has no point.
         let (name, place) = results().find(|(name, place)| name.contains('.') && name != place)?;
         Some(format!("`{name}` of its comment stands where `{place}` is"))
+    }
+
+    /// Returns the parameters as they stand and as the comments say, if that is another order: of
+    /// the line that says how it is called, or else of the columns.
+    fn other_order(&self) -> Option<[String; 2]> {
+        let stated = self.contract.parameters();
+        let columns = [self.contract.inputs(), self.contract.outputs()].concat();
+        let (found, stated) = match stated.is_empty() {
+            // Columns in their places are the parameters, or their names.
+            true => {
+                let found: Vec<&String> = self.parameters.iter().collect();
+                let restored = |name: &&String| {
+                    let written = self.written.inputs.iter().zip(&self.names.inputs);
+                    let of_input = written.into_iter().find(|(written, _)| written == name);
+                    of_input.map_or((*name).clone(), |(_, column)| column.clone())
+                };
+                (found.iter().map(restored).collect::<Vec<_>>(), columns.as_slice())
+            }
+            false => (self.parameters.clone(), stated),
+        };
+        let common = |names: &[String], others: &[String]| -> Vec<String> {
+            names.iter().filter(|name| others.contains(name)).cloned().collect()
+        };
+        let [found, stated] = [common(&found, stated), common(stated, &found)];
+        (found != stated).then(|| [found, stated].map(|names| names.join(", ")))
     }
 
     /// Evaluates the function in its own precision, halves where it has them.
@@ -412,10 +447,12 @@ impl Reader<'_> {
         let out: Vec<String> = out.flat_map(Parameter::components).collect();
         let mut places = returned_names(names.outputs.len() - out.len());
         places.extend(out);
+        let parameters = self.parameters.iter().map(|parameter| parameter.name.clone()).collect();
         let (variant, literal) = (None, None);
         Ok(ReadBack {
             language,
             places,
+            parameters,
             program,
             names,
             written,

@@ -31,7 +31,7 @@ impl ReadBack {
         let renamed = self.names.inputs.iter().zip(components);
         let columns: Vec<(String, String)> =
             renamed.map(|(column, component)| (column.clone(), component.clone())).collect();
-        let parameter = |out| move |name: &String| Parameter { name: name.clone(), size: 1, out };
+        let parameter = |out| move |name: &String| Parameter::float(name, out);
         let mut parameters: Vec<Parameter> = components.iter().map(parameter(false)).collect();
         parameters.extend(outputs.iter().map(parameter(true)));
         let (function, qualifiers) = ("f".to_owned(), None);
@@ -109,7 +109,7 @@ fn of_truth(
         Names { inputs: inputs.iter().chain(&truth).cloned().collect(), outputs: outputs.to_vec() };
     let mut head = head.clone();
     let place = head.parameters.iter().filter(|parameter| !parameter.out).count();
-    let given = truth.iter().map(|name| Parameter { name: name.clone(), size: 1, out: false });
+    let given = truth.iter().map(|name| Parameter::float(name, false));
     head.parameters.splice(place..place, given);
     Ok(call(&identity, &names, &head, lets)?.program)
 }

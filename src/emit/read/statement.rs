@@ -340,6 +340,10 @@ impl Reader<'_> {
                 let message = format!("`{name}` stands where the member `{member}` is");
                 return self.error(at, message);
             }
+            // Callers know the members, not the locals.
+            for ((name, _), member) in components.iter_mut().zip(&structure.members) {
+                *name = Some(member.clone());
+            }
         }
         Ok(Value::Several(Several { of, components }))
     }

@@ -81,6 +81,10 @@ impl Parser<'_> {
                 let result = (0..width).map(component).collect();
                 self.tokens.placed(at, result)
             }
+            Function::OfVectors(_) if args.iter().any(|value| value.len() < 2) => {
+                let message = format!("`{name}` is of vectors, not of single values");
+                self.tokens.error(at, message)
+            }
             Function::OfVectors(OfVectors::Dot) => self.dot(&args[0], &args[1]),
             Function::OfVectors(OfVectors::Length) => {
                 let square = self.dot(&args[0], &args[0])?;
