@@ -42,9 +42,24 @@ fn has_non_finite_constants(program: &Program) -> bool {
         if instr.op() == Op::Mad && !(args[0] * args[1]).is_finite() {
             return true;
         }
+        // And an interpolation's difference.
+        if instr.op() == Op::Lerp && !(args[1] - args[0]).is_finite() {
+            return true;
+        }
         results.push(if known { instr.op().apply(args) } else { 0.0 });
     }
     results.iter().any(|value| !value.is_finite())
+}
+
+#[test]
+fn a_root_below_1_is_a_reciprocal_root_only_where_it_is_alone() {
+    let names = Names::new(["x", "b"], ["y"]);
+    for formula in ["y = 1/(sqrt(x)*x + 1/x)", "y = rsqrt(x*rsqrt(b))", "y = 1/(sqrt(x) + b)"] {
+        let program = parse(formula, &names).unwrap();
+        let code = text(Language::Latex, &program, &names, "f", &[]);
+        let read = read_back(Language::Latex, &code).unwrap();
+        assert_eq!(read.evaluate(&[0.3, 0.7]), program.evaluate(&[0.3, 0.7]), "{code}");
+    }
 }
 
 #[test]

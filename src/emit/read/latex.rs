@@ -230,7 +230,7 @@ impl<'a> Equations<'a> {
             self.expect(r"\right\rfloor")?;
             return Ok(format!("floor({value})"));
         }
-        if self.take(r"\frac{1}{\sqrt{") {
+        if self.is_reciprocal_root() && self.take(r"\frac{1}{\sqrt{") {
             let value = self.sum()?;
             self.expect("}}")?;
             return Ok(format!("rsqrt({value})"));
@@ -260,6 +260,23 @@ impl<'a> Equations<'a> {
             return Ok("e".to_owned());
         }
         self.number()
+    }
+
+    /// Returns true if a root is all that 1 is divided by.
+    fn is_reciprocal_root(&self) -> bool {
+        let Some(root) = self.rest.strip_prefix(r"\frac{1}{\sqrt{") else { return false };
+        let mut depth = 1usize;
+        for (at, c) in root.char_indices() {
+            match c {
+                '{' => depth += 1,
+                '}' => depth -= 1,
+                _ => {}
+            }
+            if depth == 0 {
+                return root[at + 1..].trim_start().starts_with('}');
+            }
+        }
+        false
     }
 
     fn arguments(&mut self) -> Read<String> {
