@@ -318,6 +318,44 @@ fn what_is_required_is_refuted_nowhere_in_the_domain() {
 }
 
 #[test]
+fn comparisons_hold_for_every_formula_and_are_judged_by_name() {
+    let data = dataset("dfg", &["scale", "bias"]);
+    let names = data.names();
+    let texts =
+        ["range=0..1", "scale + bias <= 1", "dark: f0*scale + bias >= 0.03 for f0 in 0.5..1"];
+    let requirements: Vec<Requirement> =
+        texts.iter().map(|text| Requirement::parse(text, &names).unwrap()).collect();
+    let asked = |requirements| {
+        (Goal { max_cost: 16.0, requirements, ..Goal::default() }, Method::default())
+    };
+    let free = search(&data, "shader", 6, asked(requirements[..1].to_vec()));
+    let front = search(&data, "shader", 6, asked(requirements.clone()));
+    assert!(front.members.len() > 3);
+    let excess = |member: &FrontMember| {
+        let grid = (0..=64).flat_map(|i| (0..=64).map(move |j| [i as f32 / 64.0, j as f32 / 64.0]));
+        let of = |at: [f32; 2]| {
+            let values = member.program.evaluate(&at);
+            (values[0] + values[1] - 1.0).max(0.03 - 0.5 * values[0] - values[1])
+        };
+        grid.map(of).fold(f32::MIN, f32::max)
+    };
+    assert!(front.members.iter().all(|member| excess(member) <= 2e-5));
+    assert!(free.members.iter().any(|member| excess(member) > 1e-3), "nothing is changed");
+    for member in &front.members {
+        let claims = &member.verdict.claims;
+        assert!(
+            ["energy", "scale_bias_most", "dark"].iter().all(|name| claims.contains_key(*name))
+        );
+        assert!(claims.values().all(|one| one.exact.status != "refuted"));
+    }
+    let text = requirements[1].text(&names);
+    assert_eq!(text, "scale_bias_most: scale + bias <= 1");
+    assert_eq!(Requirement::parse(&text, &names).unwrap(), requirements[1]);
+    let error = Requirement::parse("scal + bias <= 1", &names).unwrap_err();
+    assert!(error.contains("did you mean `scale`?"), "{error}");
+}
+
+#[test]
 fn ends_are_met() {
     // No f32 is 1.6.
     let end = 1.6f32;

@@ -9,7 +9,7 @@ use crate::dataset::{Dataset, Split};
 use crate::fit::Measure;
 use crate::grammar::Grammar;
 use crate::op::Op;
-use crate::program::{Draft, Hole, Template};
+use crate::program::{Claim, Draft, Hole, Template};
 use crate::run::{
     Budget, Folder, Holding, RecordError, Session, Subject, guess, in_the_way, noted,
 };
@@ -264,7 +264,9 @@ pub(super) fn requirements(
     let names = dataset.names();
     let holes = template.map_or(&[][..], Template::holes);
     let read = |text: &String| {
-        Requirement::parse_of(text, &names, holes)
+        // A claim that comes with the data, by its name.
+        let known = dataset.claims.iter().find(|claim| Claim::name_of(claim) == text);
+        Requirement::parse_of(known.unwrap_or(text), &names, holes)
             .map_err(|reason| Failure::usage(format!("--require {reason}")))
     };
     let requirements: Vec<Requirement> = args.require.iter().map(read).collect::<Result<_, _>>()?;

@@ -59,7 +59,8 @@ pub struct Args {
     #[arg(long, value_name = "MEASURE")]
     pub(super) loss: Option<Measure>,
     /// Conditions on every formula: finite, range=0..1, half=1e-2 (error in f16), rising=INPUT,
-    /// falling=INPUT, ends=INPUT (exact at the ends of its domain), uses=OPERATION or uses=INPUT;
+    /// falling=INPUT, ends=INPUT (exact at the ends of its domain), uses=OPERATION or uses=INPUT, a
+    /// comparison as `scale + bias <= 1`, or the name of a claim that comes with the data;
     /// `bias.range=0..1` is for one output, or one hole of a template
     #[arg(long, value_name = "CONDITION", value_delimiter = ',')]
     pub(super) require: Vec<String>,

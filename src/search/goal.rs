@@ -3,7 +3,7 @@
 use super::Requirement;
 use crate::fit::Measure;
 use crate::op::Op;
-use crate::program::{Arg, Draft, Names, Outer, Program, Shape, Template};
+use crate::program::{Arg, Claim, Draft, Names, Outer, Program, Shape, Template};
 use serde::{Deserialize, Serialize};
 use std::fmt;
 use std::str::FromStr;
@@ -147,6 +147,9 @@ impl Goal {
         let template = self.template.as_ref().map(parsed).transpose()?;
         let lacks = |name: &str| template.as_ref().is_none_or(|one| one.hole(name).is_none());
         for requirement in &self.requirements {
+            if let Requirement::Claim { text } = requirement {
+                Claim::parse(text, names).map_err(|error| format!("`requirements`: {error}"))?;
+            }
             if let Requirement::HoleRange { hole, .. } = requirement
                 && lacks(hole)
             {
@@ -248,7 +251,10 @@ impl Requirement {
                 true => Ok(()),
                 false => Err(format!("`requirements`: {hole}.range={low}..{high} is no range")),
             },
-            Requirement::Half { .. } | Requirement::Operation(_) | Requirement::Finite => Ok(()),
+            Requirement::Half { .. }
+            | Requirement::Operation(_)
+            | Requirement::Claim { .. }
+            | Requirement::Finite => Ok(()),
         }
     }
 }

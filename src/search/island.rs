@@ -262,7 +262,9 @@ impl Island {
         self.counts.fitted += 1;
         let admission = self.population.admission(&scratch.candidate, cost);
         let loss = scratch.race(problem, &self.race, admission, self.by_maximum)?;
-        if problem.child_holds(&scratch.candidate, &mut scratch.fitter.evaluator) {
+        if problem.can_clamp()
+            || problem.child_holds(&scratch.candidate, &mut scratch.fitter.evaluator)
+        {
             return Ok(Individual { draft: scratch.candidate.clone(), cost, loss, hash });
         }
         self.clamped(problem).ok_or(Rejection::Unfulfilled)
@@ -272,12 +274,7 @@ impl Island {
     /// requirements; none within an outer form, around which no child can clamp.
     fn clamped(&mut self, problem: &Problem) -> Option<Individual> {
         let Scratch { fitter, formula, candidate, .. } = &mut self.scratch;
-        *candidate = problem.clamped(candidate).filter(|_| problem.outer.is_none())?;
-        if !problem.structure_ok(candidate)
-            || candidate.instrs.len() > problem.grammar.max_instructions
-        {
-            return None;
-        }
+        *candidate = clamped(candidate, problem)?;
         let cost = problem.cost(candidate, &mut formula.cost);
         let admission = self.population.admission(candidate, cost);
         let mut loss =
@@ -293,11 +290,22 @@ impl Island {
     }
 
     /// Fits the candidate, whose loss on the subset is given, on all samples and offers it to the
-    /// archive, if it may be good enough.
-    fn offer_to_archive(&mut self, problem: &Problem, cost: f64, mut loss: f64) {
-        let Scratch { fitter, candidate, .. } = &mut self.scratch;
-        let wanted = self.archive.best_loss(cost) * SUBSET_TOLERANCE;
+    /// archive, if it may be good enough; clamped, if it is not as required otherwise.
+    fn offer_to_archive(&mut self, problem: &Problem, mut cost: f64, mut loss: f64) {
+        let Scratch { fitter, formula, candidate, .. } = &mut self.scratch;
         let by_maximum = problem.goal.measure == Measure::Max;
+        let mut wanted = self.archive.best_loss(cost) * SUBSET_TOLERANCE;
+        let may_win = loss < wanted || by_maximum && !self.by_maximum;
+        if may_win && problem.can_clamp() && !problem.child_holds(candidate, &mut fitter.evaluator)
+        {
+            let Some(draft) = clamped(candidate, problem) else { return };
+            *candidate = draft;
+            cost = problem.cost(candidate, &mut formula.cost);
+            if cost > problem.goal.max_cost {
+                return;
+            }
+            wanted = self.archive.best_loss(cost) * SUBSET_TOLERANCE;
+        }
         let fitted = problem.on_formula(candidate, |formula, own| {
             if by_maximum && !self.by_maximum {
                 loss = minimax_loss(fitter, formula, own, &self.race, wanted);
@@ -316,6 +324,16 @@ impl Island {
         let Some(loss) = fitted else { return };
         if problem.child_holds(candidate, &mut fitter.evaluator) {
             self.archive.offer(Member { cost, loss, draft: candidate.clone() });
+            return;
+        }
+        // Values that leave a range by little do so at other samples than those of the race. What is
+        // cut off was an error.
+        if let Some(draft) = clamped(candidate, problem).filter(|_| problem.can_clamp()) {
+            let cost = problem.cost(&draft, &mut self.scratch.formula.cost);
+            let holds = problem.holds_on_samples(&draft, &mut self.scratch.fitter.evaluator);
+            if holds && cost <= problem.goal.max_cost {
+                self.archive.offer(Member { cost, loss, draft });
+            }
         }
     }
 
@@ -432,6 +450,13 @@ impl Scratch {
             if loss < admission { Ok(loss) } else { Err(Rejection::NoBetter) }
         })
     }
+}
+
+/// Returns a child with clamped outputs, if it can be clamped, is as required, and not too long.
+fn clamped(child: &Draft, problem: &Problem) -> Option<Draft> {
+    let clamped = problem.clamped(child).filter(|_| problem.outer.is_none())?;
+    let is_short = clamped.instrs.len() <= problem.grammar.max_instructions;
+    (is_short && problem.structure_ok(&clamped)).then_some(clamped)
 }
 
 /// Fits a child of the archive to all samples, and returns it with its loss; none if its values are

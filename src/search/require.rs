@@ -1,13 +1,14 @@
 //! Requirements that every formula must meet, whatever its error: checked on samples during a
 //! search, and over the whole domain before a formula is shown.
 
-use super::Problem;
+use super::{Problem, claims};
 use crate::dataset::{Column, Dataset, Split, output_units};
 use crate::eval::{Evaluator, Samples, Tape, Values};
 use crate::fit::Measure;
 use crate::grammar::Grammar;
+use crate::num::Interval;
 use crate::op::Op;
-use crate::program::{Arg, Draft, Hole, Names, Program};
+use crate::program::{Arg, Claim, Draft, Hole, Names, Program};
 use crate::stability::{
     Bound, Limits, Property, Questions, Rounding, Status, half_error, points_in, prove,
 };
@@ -37,6 +38,8 @@ pub enum Requirement {
     Half { error: f64 },
     /// No value of a template's hole leaves the range, wherever it is called.
     HoleRange { hole: String, low: f32, high: f32 },
+    /// A comparison holds everywhere: the text of a [`Claim`].
+    Claim { text: String },
 }
 
 /// The largest error of a value that must be exact, as a share of the output's largest magnitude.
@@ -56,7 +59,8 @@ const ROUNDING: f64 = 1e-6;
 
 impl Requirement {
     /// Parses `finite`, `range=0..1`, `half=1e-2`, `rising=INPUT`, `falling=INPUT`, `ends=INPUT`,
-    /// `uses=OPERATION` or `uses=INPUT`. A prefix of an output's name and a dot restricts a range,
+    /// `uses=OPERATION` or `uses=INPUT`; or a comparison as of a [`Claim`], with or without its
+    /// name: `scale + bias <= 1`, `energy: f0*scale + bias <= 1 for f0 in 0..1`. A prefix of an output's name and a dot restricts a range,
     /// a direction or ends to that output.
     ///
     /// # Errors
@@ -71,6 +75,11 @@ impl Requirement {
     /// # Errors
     /// As [`Requirement::parse`].
     pub fn parse_of(text: &str, names: &Names, holes: &[Hole]) -> Result<Requirement, String> {
+        if ["<=", ">=", "≤", "≥"].iter().any(|sign| text.contains(sign)) {
+            let text = if text.contains(':') { text.to_owned() } else { named_claim(text) };
+            let claim = Claim::parse(&text, names);
+            return claim.map(|_| Requirement::Claim { text }).map_err(|error| error.to_string());
+        }
         let named = text.split_once('.').map(|(name, _)| name.trim_start_matches('$'));
         let hole = holes.iter().find(|hole| Some(hole.name.as_str()) == named);
         if let Some(hole) = hole.filter(|hole| !names.outputs.contains(&hole.name)) {
@@ -82,7 +91,7 @@ impl Requirement {
                 _ => Err(format!("`{text}`: of a hole only a range can be required")),
             };
         }
-        let wanted = "give finite, range=LOW..HIGH, half=ERROR, rising=INPUT, falling=INPUT, ends=INPUT or uses=NAME, an output's name and a dot before it if it is for one output";
+        let wanted = "give finite, range=LOW..HIGH, half=ERROR, rising=INPUT, falling=INPUT, ends=INPUT, uses=NAME or a comparison as `scale + bias <= 1`, an output's name and a dot before it if it is for one output";
         if text == "finite" {
             return Ok(Requirement::Finite);
         }
@@ -145,10 +154,21 @@ impl Requirement {
             Requirement::Operation(op) => format!("uses={}", op.name()),
             Requirement::Input(read) => format!("uses={}", input(read)),
             Requirement::HoleRange { ref hole, low, high } => format!("{hole}.range={low}..{high}"),
+            Requirement::Claim { ref text } => text.clone(),
             Requirement::Finite => "finite".to_owned(),
             Requirement::Half { error } => format!("half={error}"),
         }
     }
+}
+
+/// Gives a comparison a name, of the names in it: `scale_bias_most: scale + bias <= 1`.
+fn named_claim(text: &str) -> String {
+    let comparison = text.split(" for ").next().unwrap_or(text);
+    let words = comparison.split(|c: char| !c.is_ascii_alphanumeric() && c != '_');
+    let is_name = |word: &&str| word.starts_with(|c: char| c.is_ascii_alphabetic());
+    let mut name: String = words.filter(is_name).map(|word| format!("{word}_")).collect();
+    name.push_str(if comparison.contains(['>', '≥']) { "least" } else { "most" });
+    format!("{name}: {text}")
 }
 
 fn place(name: &str, names: &[String], kind: &str) -> Result<u16, String> {
@@ -162,12 +182,19 @@ fn place(name: &str, names: &[String], kind: &str) -> Result<u16, String> {
 #[derive(Clone, Debug)]
 pub(super) struct Checks {
     requirements: Vec<Requirement>,
-    /// The samples of each requirement; if outputs are compared, also those a step further.
+    /// The samples of both splits, if some values must be finite or in a range.
+    whole: Option<Samples>,
+    /// The other samples of each requirement; if outputs are compared, also those a step further.
     samples: Vec<Vec<Samples>>,
     /// The inputs at which half precision is tried.
     few_points: Vec<Vec<f32>>,
     /// The largest magnitude of each output.
     magnitudes: Vec<f64>,
+    /// The claims among the requirements.
+    claims: Vec<Claim>,
+    domain: Vec<Interval>,
+    /// True if clamps meet all of them that a formula of finite values may miss.
+    by_clamps: bool,
 }
 
 impl Checks {
@@ -213,6 +240,23 @@ impl Checks {
 
     pub fn new(requirements: &[Requirement], dataset: &Dataset) -> Checks {
         let samples = requirements.iter().map(|requirement| samples_for(requirement, dataset));
+        let names = dataset.names();
+        let claims: Vec<Claim> = requirements
+            .iter()
+            .filter_map(|one| match one {
+                Requirement::Claim { text } => Claim::parse(text, &names).ok(),
+                _ => None,
+            })
+            .collect();
+        let domain = Questions::of(&dataset.inputs, &[], &[]).domain;
+        let of_values = |one: &Requirement| {
+            matches!(
+                one,
+                Requirement::Range { .. } | Requirement::Finite | Requirement::Claim { .. }
+            )
+        };
+        let whole = requirements.iter().any(of_values);
+        let whole = whole.then(|| Samples::new(&both_splits(dataset), dataset.inputs.len()));
         let rows = dataset.search.rows();
         let inputs = &dataset.search.columns[..dataset.inputs.len()];
         let point = |row| inputs.iter().map(|column| column[row]).collect();
@@ -220,7 +264,11 @@ impl Checks {
         let largest = |column: &Column| column.domain.iter().fold(0.0, |m, end| end.abs().max(m));
         let magnitudes = dataset.outputs.iter().map(largest).collect();
         let samples = samples.collect();
-        Checks { samples, requirements: requirements.to_vec(), few_points, magnitudes }
+        let requirements = requirements.to_vec();
+        let by_clamps = requirements
+            .iter()
+            .all(|one| matches!(one, Requirement::Range { .. } | Requirement::Finite));
+        Checks { whole, samples, requirements, few_points, magnitudes, claims, domain, by_clamps }
     }
 
     /// Returns true if a formula has the required operations and inputs, whatever its values.
@@ -238,7 +286,8 @@ impl Checks {
     /// Returns true if a formula's values on the samples are as required.
     pub(crate) fn hold_on_samples(&self, draft: &Draft, evaluator: &mut Evaluator) -> bool {
         let of_halves = |one: &Requirement| matches!(one, Requirement::Half { .. });
-        if self.samples.iter().all(Vec::is_empty) && !self.requirements.iter().any(of_halves) {
+        let of_samples = self.whole.is_some() || !self.samples.iter().all(Vec::is_empty);
+        if !of_samples && !self.requirements.iter().any(of_halves) {
             return true;
         }
         let Ok(program) = Program::verify(draft.clone()) else { return false };
@@ -248,14 +297,15 @@ impl Checks {
             evaluator.outputs_into(&tape, samples, &mut values);
             values
         };
-        self.requirements.iter().zip(&self.samples).all(|(requirement, samples)| {
+        let whole = self.whole.as_ref().map(&mut values);
+        let plain = self.requirements.iter().zip(&self.samples).all(|(requirement, samples)| {
             let holds = |output: Option<u16>, test: &dyn Fn(usize) -> bool| match output {
                 Some(output) => test(usize::from(output)),
                 None => (0..program.outputs.len()).all(test),
             };
             match (requirement, samples.as_slice()) {
-                (&Requirement::Range { output, low, high }, [samples]) => {
-                    let values = values(samples);
+                (&Requirement::Range { output, low, high }, _) => {
+                    let Some(values) = &whole else { return true };
                     let within = |value: &f32| (low..=high).contains(value);
                     holds(output, &|o| values.column(o).iter().all(within))
                 }
@@ -278,8 +328,8 @@ impl Checks {
                         values.column(o).iter().zip(samples.targets(o)).all(exact)
                     })
                 }
-                (&Requirement::Finite, [samples]) => {
-                    let values = values(samples);
+                (&Requirement::Finite, _) => {
+                    let Some(values) = &whole else { return true };
                     holds(None, &|o| values.column(o).iter().all(|value| value.is_finite()))
                 }
                 (&Requirement::Half { error }, _) => {
@@ -288,13 +338,22 @@ impl Checks {
                 }
                 _ => true,
             }
-        })
+        });
+        let claims = self.claims.iter();
+        plain
+            && self.whole.as_ref().is_none_or(|samples| {
+                claims.into_iter().all(|claim| {
+                    claims::holds_on(claim, &program, &self.domain, samples, evaluator)
+                })
+            })
     }
 
     /// Returns the questions about formulas over the whole domain: the dataset's, with the required
     /// ranges in place of its own.
     pub fn questions(&self, dataset: &Dataset) -> Questions {
         let mut questions = Questions::of(&dataset.inputs, &dataset.outputs, &dataset.claims);
+        questions.claims.retain(|one| self.claims.iter().all(|claim| claim.name != one.name));
+        questions.claims.extend(self.claims.iter().cloned());
         for requirement in &self.requirements {
             let &Requirement::Range { output, low, high } = requirement else { continue };
             for (o, range) in questions.ranges.iter_mut().enumerate() {
@@ -333,10 +392,11 @@ impl Checks {
         let limits = Limits { boxes: BOXES, ..Limits::new(Rounding::Exact) };
         let refuted = |status: &Status| matches!(status, Status::Refuted { .. });
         !claims.chunks(64).any(|some| prove(program, &domain, some, &limits).iter().any(refuted))
+            && !self.claims.iter().any(|claim| claims::is_refuted(claim, program, &domain, BOXES))
     }
 
-    /// Clamps each output that must stay in a range; none if there is no such output, or if the
-    /// grammar lacks the operations.
+    /// Clamps each output that must stay in a range, and bounds those that claims are linear in; none
+    /// if there is no such output, or if the grammar lacks the operations.
     pub fn clamped(&self, draft: &Draft, grammar: &Grammar) -> Option<Draft> {
         let has = |wanted: Op| grammar.operations.iter().any(|(op, _)| *op == wanted);
         let mut clamped = draft.clone();
@@ -361,6 +421,7 @@ impl Checks {
                 clamped.outputs[o] = value;
             }
         }
+        self.claims.iter().for_each(|claim| claims::bound(claim, &mut clamped, grammar));
         (clamped.instrs.len() > draft.instrs.len()).then_some(clamped)
     }
 }
@@ -407,7 +468,6 @@ fn samples_for(requirement: &Requirement, dataset: &Dataset) -> Vec<Samples> {
     let inputs = dataset.inputs.len();
     let whole = both_splits(dataset);
     match *requirement {
-        Requirement::Range { .. } | Requirement::Finite => vec![Samples::new(&whole, inputs)],
         Requirement::Monotone { input, .. } => {
             let [low, high] = dataset.inputs[usize::from(input)].domain;
             let step = ((high - low) / STEPS) as f32;
@@ -473,6 +533,15 @@ impl Problem {
     /// Returns true if the values of a draft of the search are as required on the samples.
     pub(super) fn holds_on_samples(&self, draft: &Draft, evaluator: &mut Evaluator) -> bool {
         self.checks.hold_on_samples(&self.natural(draft), evaluator)
+    }
+
+    /// Returns true if clamps are all that a formula may need to be as required, so that it can be
+    /// clamped when it is good enough for the archive: no error grows where a value is moved into a
+    /// range that holds the data. On the joint split-integral DFG, 30 seconds, two seeds, that is
+    /// 6 % less error in the median than without requirements and 12 % less at 40 cycles; with
+    /// clamps in the populations it was 3 % and 17 % more.
+    pub(super) fn can_clamp(&self) -> bool {
+        self.outer.is_none() && self.checks.by_clamps
     }
 
     /// As [`Checks::clamped`], for a draft of the search.

@@ -79,4 +79,4 @@ pub use truth::{
     ErrorBound, ErrorLimits, ErrorRecord, TruthRecord, largest_error, largest_error_until,
 };
 pub use variants::{Liberty, Spread, spreads};
-pub use verdict::{Case, Finding, Questions, Verdict};
+pub use verdict::{Bounded, Case, Finding, Questions, Verdict, bounded};

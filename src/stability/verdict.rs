@@ -118,6 +118,26 @@ impl Questions {
     }
 }
 
+/// A program with the expressions that a claim bounds as further outputs.
+#[derive(Clone, Debug)]
+pub struct Bounded {
+    /// The program; variables in which the claim is not linear are further inputs.
+    pub program: Program,
+    /// The domain of its inputs.
+    pub domain: Vec<Interval>,
+    /// What must hold.
+    pub properties: Vec<Property>,
+}
+
+/// Returns a program over a domain with what a claim bounds; none if that is too long a program.
+pub fn bounded(program: &Program, domain: &[Interval], claim: &Claim) -> Option<Bounded> {
+    let (domain, ranges) = (domain.to_vec(), Vec::new());
+    let questions = Questions { domain, ranges, claims: Vec::new(), slack: 0.0, truth: None };
+    let Group { program, domain, findings, .. } = questions.claimed(program, claim);
+    let properties = findings.iter().map(|finding| finding.property).collect();
+    Some(Bounded { program: program?, domain, properties })
+}
+
 /// Returns the properties of an output that must stay in a range: its finite ends as bounds.
 fn within(output: usize, [low, high]: [f64; 2]) -> impl Iterator<Item = Property> {
     let bounds = [Bound::AtLeast(low), Bound::AtMost(high)].into_iter().zip([low, high]);
