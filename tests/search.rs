@@ -6,6 +6,7 @@ use lgp::eval::{Evaluator, Samples, Score, Tape};
 use lgp::fit::{Fitter, Measure, Stop};
 use lgp::grammar::Grammar;
 use lgp::num::Interval;
+use lgp::op::Op;
 use lgp::program::{Names, Program, Scope, parse, parse_template};
 use lgp::run::{Census, Checkpoint, Run};
 use lgp::search::{Front, FrontMember, Goal, Method, Problem, Requirement, Search, Transform};
@@ -314,6 +315,20 @@ fn what_is_required_is_refuted_nowhere_in_the_domain() {
         assert_eq!(member.verdict.finite.exact.status, "proved", "{}", member.formula);
         let error = half_error(&member.program, points.iter().map(Vec::as_slice));
         assert!(error <= 1e-2, "{}: {error}", member.formula);
+    }
+}
+
+#[test]
+fn a_range_is_kept_by_a_grammar_that_cannot_clamp() {
+    let data = dataset("dfg", &["scale"]);
+    let requirements = vec![Requirement::parse("range=0..1", &data.names()).unwrap()];
+    let asked = (Goal { max_cost: 12.0, requirements, ..Goal::default() }, Method::default());
+    let grammar = Grammar::find("polynomial").unwrap();
+    assert!(!grammar.has(Op::Saturate) && !grammar.has(Op::Min));
+    let front = search(&data, "polynomial", 6, asked);
+    assert!(front.members.len() > 3, "{}", front.members.len());
+    for member in &front.members {
+        assert_ne!(member.verdict.range.as_ref().unwrap().exact.status, "refuted");
     }
 }
 

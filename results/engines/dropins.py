@@ -1,5 +1,6 @@
 """Writes for each engine a function in the place of its own, as a file beside this one; dropins.csv, with error, cycles,
-registers and proofs; and spheres.png in each folder but that of three.js, which draws its own (three/compare.py).
+registers and proofs; and spheres.png in each folder but those of three.js, which draws its own
+(three/compare.py), and Unreal, whose terms are Bevy's.
 
     python3 results/engines/dropins.py     after the searches of README.md and tests/tools/install; lgp on the PATH;
                                            wants numpy and pillow; two minutes
@@ -188,7 +189,7 @@ def picture(path, rows):
     exact_row, ships, ours = (np.round(displayed(row)) for row in rows)
     differences = [np.abs(row - exact_row) * BRIGHTER for row in (ships, ours)]
     image = np.concatenate([exact_row, ships, ours, *differences])
-    if path.parent.name != "three":
+    if path.parent.name not in ("three", "unreal"):
         Image.fromarray(np.clip(image, 0, 255).astype(np.uint8)).save(path, optimize=True)
     return [int(np.abs(row - exact_row).max()) for row in (ships, ours)]
 

@@ -48,8 +48,7 @@ pub(super) fn is_refuted(
 /// Bounds an output of a draft so that the claim holds, in each case in which it is linear in the
 /// outputs: `scale = min(scale, 1 - bias)`.
 pub(super) fn bound(claim: &Claim, draft: &mut Draft, grammar: &Grammar) {
-    let has = |wanted: Op| grammar.operations.iter().any(|(op, _)| *op == wanted);
-    if ![Op::Min, Op::Max, Op::Sub, Op::Mul].into_iter().all(has) {
+    if ![Op::Min, Op::Max, Op::Sub, Op::Mul].into_iter().all(|op| grammar.has(op)) {
         return;
     }
     for Linear { factors, rest } in cases(claim, draft.inputs, draft.outputs.len()) {

@@ -38,6 +38,7 @@ mod polish;
 mod population;
 mod problem;
 mod require;
+mod requirement;
 mod rounding;
 mod scales;
 mod template;
@@ -51,7 +52,7 @@ pub use goal::{CostOf, Goal, MAX_CYCLES, Transform};
 pub(crate) use loaded::not_negative;
 pub use method::{MAX_ISLANDS, Method};
 pub use problem::{Problem, ProblemBuilder, SetupError, USUAL_GPU, USUAL_GRAMMAR};
-pub use require::Requirement;
+pub use requirement::Requirement;
 
 use crate::archive::Archive;
 use crate::deadline::Deadline;

@@ -1,46 +1,18 @@
 //! Requirements that every formula must meet, whatever its error: checked on samples during a
 //! search, and over the whole domain before a formula is shown.
 
-use super::{Problem, claims};
+use super::{Problem, Requirement, claims};
 use crate::dataset::{Column, Dataset, Split, output_units};
 use crate::eval::{Evaluator, Samples, Tape, Values};
 use crate::fit::Measure;
 use crate::grammar::Grammar;
 use crate::num::Interval;
 use crate::op::Op;
-use crate::program::{Arg, Claim, Draft, Hole, Names, Program};
+use crate::program::{Arg, Claim, Draft, Program};
 use crate::stability::{
     Bound, Limits, Property, Questions, Rounding, Status, half_error, points_in, prove,
 };
-use crate::suggest::did_you_mean;
 use crate::truth::{exact_formula, formula_of};
-use serde::{Deserialize, Serialize};
-
-/// A condition on formulas. Those on values are checked on samples; before a formula is shown, a
-/// refutation of `Finite` and `Range` is also sought in the whole domain.
-#[allow(missing_docs, reason = "the variants' docs name their fields")]
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub enum Requirement {
-    /// No output, or not this one, leaves the range.
-    Range { output: Option<u16>, low: f32, high: f32 },
-    /// All outputs, or this one, never fall, or never rise, as an input grows.
-    Monotone { output: Option<u16>, input: u16, rising: bool },
-    /// All outputs, or this one, meet the data to 1e-5 of the output's largest magnitude at samples
-    /// with the input at either end of its domain.
-    Ends { output: Option<u16>, input: u16 },
-    /// The formula has this operation.
-    Operation(Op),
-    /// The formula reads this input.
-    Input(u16),
-    /// No output is infinite or NaN anywhere in the domain.
-    Finite,
-    /// In half precision no output has a larger absolute error.
-    Half { error: f64 },
-    /// No value of a template's hole leaves the range, wherever it is called.
-    HoleRange { hole: String, low: f32, high: f32 },
-    /// A comparison holds everywhere: the text of a [`Claim`].
-    Claim { text: String },
-}
 
 /// The largest error of a value that must be exact, as a share of the output's largest magnitude.
 /// Chosen by hand, unmeasured.
@@ -57,127 +29,6 @@ const WEIGHT_OF_ENDS_BY_MAXIMUM: f64 = 1e7;
 const STEPS: f64 = 64.0;
 const ROUNDING: f64 = 1e-6;
 
-impl Requirement {
-    /// Parses `finite`, `range=0..1`, `half=1e-2`, `rising=INPUT`, `falling=INPUT`, `ends=INPUT`,
-    /// `uses=OPERATION` or `uses=INPUT`; or a comparison as of a [`Claim`], with or without its
-    /// name: `scale + bias <= 1`, `energy: f0*scale + bias <= 1 for f0 in 0..1`. A prefix of an output's name and a dot restricts a range,
-    /// a direction or ends to that output.
-    ///
-    /// # Errors
-    /// A message that says what is wrong with the text, and what may be written.
-    pub fn parse(text: &str, names: &Names) -> Result<Requirement, String> {
-        Requirement::parse_of(text, names, &[])
-    }
-
-    /// As [`Requirement::parse`]; before the dot of a range may stand the name of one of these
-    /// holes, too.
-    ///
-    /// # Errors
-    /// As [`Requirement::parse`].
-    pub fn parse_of(text: &str, names: &Names, holes: &[Hole]) -> Result<Requirement, String> {
-        if ["<=", ">=", "≤", "≥"].iter().any(|sign| text.contains(sign)) {
-            let text = if text.contains(':') { text.to_owned() } else { named_claim(text) };
-            let claim = Claim::parse(&text, names);
-            return claim.map(|_| Requirement::Claim { text }).map_err(|error| error.to_string());
-        }
-        let named = text.split_once('.').map(|(name, _)| name.trim_start_matches('$'));
-        let hole = holes.iter().find(|hole| Some(hole.name.as_str()) == named);
-        if let Some(hole) = hole.filter(|hole| !names.outputs.contains(&hole.name)) {
-            let alone = text.split_once('.').map_or("", |(_, condition)| condition);
-            return match Requirement::parse(alone, names)? {
-                Requirement::Range { low, high, .. } => {
-                    Ok(Requirement::HoleRange { hole: hole.name.clone(), low, high })
-                }
-                _ => Err(format!("`{text}`: of a hole only a range can be required")),
-            };
-        }
-        let wanted = "give finite, range=LOW..HIGH, half=ERROR, rising=INPUT, falling=INPUT, ends=INPUT, uses=NAME or a comparison as `scale + bias <= 1`, an output's name and a dot before it if it is for one output";
-        if text == "finite" {
-            return Ok(Requirement::Finite);
-        }
-        let (key, value) = text.split_once('=').ok_or_else(|| format!("`{text}`: {wanted}"))?;
-        let (output, key) = match key.split_once('.') {
-            Some((output, key)) => (Some(place(output, &names.outputs, "output")?), key),
-            None => (None, key),
-        };
-        let input = || place(value, &names.inputs, "input");
-        match key {
-            "range" => {
-                let ends = value.split_once("..").and_then(|(low, high)| {
-                    Some((low.parse().ok()?, high.parse().ok()?)).filter(|(low, high)| low < high)
-                });
-                let (low, high) =
-                    ends.ok_or_else(|| format!("`{text}`: a range is LOW..HIGH, as in 0..1"))?;
-                Ok(Requirement::Range { output, low, high })
-            }
-            "rising" | "falling" => {
-                Ok(Requirement::Monotone { output, input: input()?, rising: key == "rising" })
-            }
-            "half" if output.is_none() => {
-                let error = value.parse().ok().filter(|error: &f64| *error > 0.0);
-                let error = error
-                    .ok_or_else(|| format!("`{text}`: an error is a number above 0, as 1e-2"))?;
-                Ok(Requirement::Half { error })
-            }
-            "ends" => Ok(Requirement::Ends { output, input: input()? }),
-            "uses" if output.is_none() => match Op::from_name(value) {
-                Some(op) => Ok(Requirement::Operation(op)),
-                None => Ok(Requirement::Input(input()?)),
-            },
-            _ => Err(format!("`{text}`: {wanted}")),
-        }
-    }
-}
-
-impl Requirement {
-    /// Returns the text that [`Requirement::parse`] reads as this.
-    pub fn text(&self, names: &Names) -> String {
-        // A damaged record may name an output or input that does not exist.
-        let named = |names: &[String], i: u16| {
-            names.get(usize::from(i)).cloned().unwrap_or_else(|| format!("?{i}"))
-        };
-        let of = |output: Option<u16>| {
-            output.map_or_else(String::new, |o| format!("{}.", named(&names.outputs, o)))
-        };
-        let input = |input: u16| named(&names.inputs, input);
-        match *self {
-            Requirement::Range { output, low, high } => {
-                format!("{}range={low}..{high}", of(output))
-            }
-            Requirement::Monotone { output, input: along, rising } => {
-                let direction = if rising { "rising" } else { "falling" };
-                format!("{}{direction}={}", of(output), input(along))
-            }
-            Requirement::Ends { output, input: along } => {
-                format!("{}ends={}", of(output), input(along))
-            }
-            Requirement::Operation(op) => format!("uses={}", op.name()),
-            Requirement::Input(read) => format!("uses={}", input(read)),
-            Requirement::HoleRange { ref hole, low, high } => format!("{hole}.range={low}..{high}"),
-            Requirement::Claim { ref text } => text.clone(),
-            Requirement::Finite => "finite".to_owned(),
-            Requirement::Half { error } => format!("half={error}"),
-        }
-    }
-}
-
-/// Gives a comparison a name, of the names in it: `scale_bias_most: scale + bias <= 1`.
-fn named_claim(text: &str) -> String {
-    let comparison = text.split(" for ").next().unwrap_or(text);
-    let words = comparison.split(|c: char| !c.is_ascii_alphanumeric() && c != '_');
-    let is_name = |word: &&str| word.starts_with(|c: char| c.is_ascii_alphabetic());
-    let mut name: String = words.filter(is_name).map(|word| format!("{word}_")).collect();
-    name.push_str(if comparison.contains(['>', '≥']) { "least" } else { "most" });
-    format!("{name}: {text}")
-}
-
-fn place(name: &str, names: &[String], kind: &str) -> Result<u16, String> {
-    names.iter().position(|known| known == name).map(|at| at as u16).ok_or_else(|| {
-        let meant = did_you_mean(name, names.iter().map(String::as_str));
-        format!("there is no {kind} `{name}`{meant}")
-    })
-}
-
 /// A problem's requirements, with the samples on which they are checked.
 #[derive(Clone, Debug)]
 pub(super) struct Checks {
@@ -193,8 +44,6 @@ pub(super) struct Checks {
     /// The claims among the requirements.
     claims: Vec<Claim>,
     domain: Vec<Interval>,
-    /// True if clamps meet all of them that a formula of finite values may miss.
-    by_clamps: bool,
 }
 
 impl Checks {
@@ -265,10 +114,7 @@ impl Checks {
         let magnitudes = dataset.outputs.iter().map(largest).collect();
         let samples = samples.collect();
         let requirements = requirements.to_vec();
-        let by_clamps = requirements
-            .iter()
-            .all(|one| matches!(one, Requirement::Range { .. } | Requirement::Finite));
-        Checks { whole, samples, requirements, few_points, magnitudes, claims, domain, by_clamps }
+        Checks { whole, samples, requirements, few_points, magnitudes, claims, domain }
     }
 
     /// Returns true if a formula has the required operations and inputs, whatever its values.
@@ -395,10 +241,24 @@ impl Checks {
             && !self.claims.iter().any(|claim| claims::is_refuted(claim, program, &domain, BOXES))
     }
 
+    /// Returns true if there are ranges, and clamps that the grammar has are all that a formula of
+    /// finite values may need to be as required.
+    fn can_clamp(&self, grammar: &Grammar) -> bool {
+        let mut ranges = 0;
+        let each = self.requirements.iter().all(|requirement| match *requirement {
+            Requirement::Range { low, high, .. } => {
+                ranges += 1;
+                clamp_of([low, high], grammar).is_some()
+            }
+            Requirement::Finite => true,
+            _ => false,
+        });
+        each && ranges > 0
+    }
+
     /// Clamps each output that must stay in a range, and bounds those that claims are linear in; none
     /// if there is no such output, or if the grammar lacks the operations.
     pub fn clamped(&self, draft: &Draft, grammar: &Grammar) -> Option<Draft> {
-        let has = |wanted: Op| grammar.operations.iter().any(|(op, _)| *op == wanted);
         let mut clamped = draft.clone();
         for requirement in &self.requirements {
             let &Requirement::Range { output, low, high } = requirement else { continue };
@@ -406,17 +266,16 @@ impl Checks {
                 (0..draft.outputs.len()).filter(|&o| output.is_none_or(|one| usize::from(one) == o))
             {
                 let mut value = clamped.outputs[o];
-                if (low, high) == (0.0, 1.0) && has(Op::Saturate) {
-                    value = clamped.push(Op::Saturate, &[value]);
-                } else if has(Op::Min) && has(Op::Max) {
-                    for (op, bound) in [(Op::Max, low), (Op::Min, high)] {
-                        if bound.is_finite() {
-                            let bound = clamped.constant(bound);
-                            value = clamped.push(op, &[value, bound]);
+                match clamp_of([low, high], grammar)? {
+                    Clamp::Saturate => value = clamped.push(Op::Saturate, &[value]),
+                    Clamp::Ends => {
+                        for (op, bound) in [(Op::Max, low), (Op::Min, high)] {
+                            if bound.is_finite() {
+                                let bound = clamped.constant(bound);
+                                value = clamped.push(op, &[value, bound]);
+                            }
                         }
                     }
-                } else {
-                    return None;
                 }
                 clamped.outputs[o] = value;
             }
@@ -424,6 +283,21 @@ impl Checks {
         self.claims.iter().for_each(|claim| claims::bound(claim, &mut clamped, grammar));
         (clamped.instrs.len() > draft.instrs.len()).then_some(clamped)
     }
+}
+
+/// How a value is kept in a range.
+enum Clamp {
+    Saturate,
+    /// By its ends, with `max` and `min`.
+    Ends,
+}
+
+/// Returns how a grammar keeps a value in a range, if it can.
+fn clamp_of(range: [f32; 2], grammar: &Grammar) -> Option<Clamp> {
+    if range == [0.0, 1.0] && grammar.has(Op::Saturate) {
+        return Some(Clamp::Saturate);
+    }
+    (grammar.has(Op::Min) && grammar.has(Op::Max)).then_some(Clamp::Ends)
 }
 
 /// Returns true if the values of programs, over the inputs of a dataset, are in their ranges on both
@@ -541,7 +415,7 @@ impl Problem {
     /// 6 % less error in the median than without requirements and 12 % less at 40 cycles; with
     /// clamps in the populations it was 3 % and 17 % more.
     pub(super) fn can_clamp(&self) -> bool {
-        self.outer.is_none() && self.checks.by_clamps
+        self.outer.is_none() && self.checks.can_clamp(&self.grammar)
     }
 
     /// As [`Checks::clamped`], for a draft of the search.
